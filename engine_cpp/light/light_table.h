@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every emitter of a scene: lamps, emissive triangles and the world, with a tree that chooses one by its estimated
+// contribution at a point. Built once, then read-only. Kernels are in light/kernels.h.
+#pragma once
+
+#include "math/types.h"
+#include "scene/scene_desc.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cardioid::light {
+
+/// One triangle of an emissive mesh, in world space.
+struct EmissiveTriangle {
+    Float3 p0, p1, p2;
+    Float3 radiance;          ///< estimate of the emitted radiance (program's emission_estimate)
+    std::int32_t instance;    ///< trace/ instance index
+    std::int32_t triangle;    ///< triangle within the mesh
+    std::int32_t program;     ///< emission program, or -1 when `radiance` is exact and constant
+    bool two_sided = true;
+};
+
+/// A lamp with its compiled emission program (or -1). Colour and strength of the graph multiply the lamp's own.
+struct LampInput {
+    scene::LightDesc desc;
+    std::int32_t program = -1;
+    Float3 program_estimate{1, 1, 1};
+};
+
+/// Radiance of the world toward the direction, for n ≤ 64 unit directions (world shader evaluated by the caller).
+using EnvironmentEval = std::function<void(int n, const Float3* directions, Float3* radiance)>;
+
+struct WorldInput {
+    scene::WorldSampling sampling = scene::WorldSampling::automatic;
+    int map_resolution = 1024;
+    bool constant = true;          ///< no texture: one colour
+    Float3 color{0, 0, 0};         ///< when constant
+    EnvironmentEval eval;          ///< when not constant
+    std::int32_t program = -1;     ///< emission program when not constant
+};
+
+/// Plain arrays that the kernels read, see light/light_data.h.
+struct LightData;
+
+class LightTable {
+public:
+    LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
+               const WorldInput* world, Float3 scene_min, Float3 scene_max);
+    ~LightTable();
+    const LightData& data() const;
+    /// Emitter id of a triangle, or -1: indexed [emitter_base(instance) + triangle] when the instance has emitters.
+    bool empty() const;
+    std::int64_t memory_bytes() const;
+
+private:
+    std::unique_ptr<LightData> data_;
+};
+
+}  // namespace cardioid::light

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A compiled shading graph: a flat list of instructions over registers (design: interpreted over chunks of 64 lanes).
+#pragma once
+
+#include "bsdf/lobe.h"
+#include "math/types.h"
+#include "scene/graph_desc.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cardioid::image { class ImageStore; }
+
+namespace cardioid::nodes {
+
+/// One output each: a program keeps only what its output needs.
+enum class Purpose : std::uint8_t {
+    surface,        ///< lobes, emission and transparency
+    emission,       ///< emission alone (light sampling, world, lamps)
+    transparency,   ///< transparency alone (shadow rays)
+};
+
+struct Program;   // instruction stream, defined in nodes/instructions.h
+
+/// Facts that the scene builder needs before anything is rendered.
+struct ProgramInfo {
+    bool has_emission = false;
+    bool constant_emission = false;   ///< then emission_value holds it, without the normal's or ray's influence
+    Float3 emission_value{0, 0, 0};
+    Float3 emission_estimate{0, 0, 0};///< rough mean radiance for choosing lights (textures: their mean colour or 1)
+    bool has_transparency = false;
+    bool has_lobes = false;
+    bool has_bump = false;
+    bool needs_light_path = false;    ///< depends on the kind of ray
+    int lobes = 0;
+};
+
+}  // namespace cardioid::nodes

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a node program reads (ShadingChunk, GeometryTables) and writes (SurfaceOutput), for up to 64 points of one material.
+// Lanes from n to the next multiple of 16 repeat lane n-1, so that kernels may compute them.
+#pragma once
+
+#include "bsdf/lobe.h"
+#include "math/types.h"
+
+#include <cstdint>
+
+namespace cardioid::nodes {
+
+/// Light Path flags of the ray that arrived.
+enum RayFlag : std::uint32_t {
+    ray_camera = 1,
+    ray_shadow = 2,
+    ray_diffuse = 4,
+    ray_glossy = 8,
+    ray_singular = 16,
+    ray_reflection = 32,
+    ray_transmission = 64,
+    ray_volume = 128,
+};
+
+/// Where a mesh keeps an attribute; channels 0: the mesh lacks it.
+struct AttributeRef {
+    std::uint32_t offset = 0;     ///< into GeometryTables::floats
+    std::uint8_t domain = 0;      ///< scene::Domain
+    std::uint8_t channels = 0;
+};
+
+/// Per-instance values that nodes can read.
+struct InstanceInfo {
+    Affine object_to_world, world_to_object;
+    std::int32_t mesh = 0;
+    float random = 0, pass_index = 0;
+    float color[4] = {1, 1, 1, 1};
+    Float3 location;
+    Float3 dupli_generated;
+    float dupli_uv[2] = {0, 0};
+};
+
+struct MeshInfo {
+    std::uint32_t first_triangle = 0;     ///< into GeometryTables::triangles
+    std::uint32_t first_vertex = 0;
+    Float3 generated_min, generated_size;
+};
+
+/// Read-only views of the built scene's geometry; pointers are owned by trace/.
+struct GeometryTables {
+    const std::uint32_t* triangles = nullptr;   ///< 3 indices each, relative to the mesh's first vertex
+    const float* positions = nullptr;           ///< xyz per vertex, object space
+    const float* floats = nullptr;              ///< attribute data of all meshes
+    const AttributeRef* attributes = nullptr;   ///< [mesh * attribute_names + name id]
+    int attribute_names = 0;
+    const InstanceInfo* instances = nullptr;
+    const MeshInfo* meshes = nullptr;
+    Affine camera_to_world, world_to_camera;    ///< camera looks along -z
+    std::array<float, 4> view_plane{};          ///< left, right, bottom, top at distance 1 (Window coordinates)
+    bool orthographic = false;
+};
+
+struct alignas(64) ShadingChunk {
+    int n = 0;                       ///< 1…64
+    const GeometryTables* geometry = nullptr;
+    Row position[3];                 ///< world; for the world shader: the direction
+    Row normal_geometric[3];         ///< unit, world, on wo's side
+    Row normal[3];                   ///< smooth, unit, on wo's side
+    Row wo[3];                       ///< unit, toward the ray's origin
+    Row barycentric_u, barycentric_v;///< weights of corners 1 and 2
+    Row dp_du[3], dp_dv[3];          ///< world: edge 1 and edge 2 of the triangle
+    Row footprint;                   ///< world-space width of a pixel at the point (bump, later photon radii)
+    Row ray_length;
+    Row time;
+    Row backfacing;                  ///< 1 or 0
+    std::int32_t triangle[k_chunk];  ///< within the mesh
+    std::int32_t mesh[k_chunk];
+    std::int32_t instance[k_chunk];  ///< -1 for lamps and the world
+    std::int32_t material_pass_index = 0;
+    std::uint32_t ray_flags[k_chunk];
+    Row ray_depth, diffuse_depth, glossy_depth, transmission_depth, transparent_depth;
+};
+
+struct alignas(64) SurfaceOutput {
+    int lobes = 0;
+    bsdf::Lobe lobe[bsdf::k_max_lobes];
+    Row emission[3];                 ///< radiance toward wo; world and lamps: the colour × strength
+    Row transparency[3];             ///< weight of Transparent BSDFs: light that passes straight through
+    Row holdout;                     ///< weight of Holdout
+};
+
+}  // namespace cardioid::nodes
