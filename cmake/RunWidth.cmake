@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs a test program of one kernel width, or says that this processor cannot.
+file(READ /proc/cpuinfo cpuinfo)
+if(WIDTH EQUAL 16 AND NOT cpuinfo MATCHES "avx512dq")
+    message("CARDIOID_SKIP: no AVX-512")
+    return()
+endif()
+if(WIDTH EQUAL 8 AND NOT cpuinfo MATCHES "avx2")
+    message("CARDIOID_SKIP: no AVX2")
+    return()
+endif()
+execute_process(COMMAND ${EXE} RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${EXE} failed: ${code}")
+endif()
