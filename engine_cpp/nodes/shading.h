@@ -83,7 +83,7 @@ struct alignas(64) ShadingChunk {
 
 struct alignas(64) SurfaceOutput {
     int lobes = 0;
-    bsdf::Lobe lobe[bsdf::k_max_lobes];
+    bsdf::Lobe* lobe = nullptr;      ///< room for ProgramInfo::lobes of them, given by the caller (a path's record keeps them)
     Row emission[3];                 ///< radiance toward wo; world and lamps: the colour × strength
     Row transparency[3];             ///< weight of Transparent BSDFs: light that passes straight through
     Row holdout;                     ///< weight of Holdout
