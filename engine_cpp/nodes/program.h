@@ -20,6 +20,7 @@ enum class Purpose : std::uint8_t {
     emission,       ///< emission alone (light sampling, world, lamps)
     transparency,   ///< transparency alone (shadow rays)
 };
+inline constexpr int k_purposes = 3;
 
 struct Program;   // instruction stream, defined in nodes/instructions.h
 
@@ -33,6 +34,12 @@ struct ProgramInfo {
     bool has_lobes = false;
     bool has_bump = false;
     bool needs_light_path = false;    ///< depends on the kind of ray
+    bool has_holdout = false;
+    bool constant_transparency = false; ///< then transparency_value holds it for every point and ray
+    Float3 transparency_value{0, 0, 0};
+    bool transparency_needs_light_path = false;
+    bool needs_triangle_frame = false;  ///< reads barycentrics, dp_du, dp_dv, triangle or mesh
+    bool needs_instance = false;        ///< reads InstanceInfo
     int lobes = 0;
 };
 

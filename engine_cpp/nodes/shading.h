@@ -6,6 +6,7 @@
 #include "bsdf/lobe.h"
 #include "math/types.h"
 
+#include <array>
 #include <cstdint>
 
 namespace cardioid::nodes {
@@ -63,7 +64,7 @@ struct GeometryTables {
 struct alignas(64) ShadingChunk {
     int n = 0;                       ///< 1…64
     const GeometryTables* geometry = nullptr;
-    Row position[3];                 ///< world; for the world shader: the direction
+    alignas(64) Row position[3];     ///< world; for the world shader: the direction
     Row normal_geometric[3];         ///< unit, world, on wo's side
     Row normal[3];                   ///< smooth, unit, on wo's side
     Row wo[3];                       ///< unit, toward the ray's origin
