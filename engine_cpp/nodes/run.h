@@ -21,4 +21,7 @@ namespace cardioid::CD_ISA_NS {
 /// emission and transparency programs write their own rows; the others are zero.
 void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, nodes::Scratch& scratch);
 
+/// The instructions alone, without clearing the output (constant folding).
+void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, float* registers);
+
 }  // namespace cardioid::CD_ISA_NS

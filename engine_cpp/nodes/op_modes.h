@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meanings of Instruction::imm, shared by the compiler and the kernels.
+#pragma once
+
+#include <cstdint>
+
+namespace cardioid::nodes {
+
+/// imm of the lobe ops: kind | fresnel << 4, and flags.
+enum LobeBits : std::uint32_t {
+    lobe_kind_mask = 0xf,
+    lobe_fresnel_shift = 4,
+    lobe_preserve_energy = 1u << 8,
+    lobe_keep = 1u << 9,        ///< false: only its result is wanted (emission under a coat)
+    lobe_layer = 1u << 10,      ///< the result is read
+};
+
+enum class InstanceValue : std::uint32_t { location, color, random, pass_index, dupli_generated, dupli_uv, material_index };
+
+/// imm of object_point: space | quantity << 4 | direction << 8.
+enum class Space : std::uint32_t { object, camera, generated };
+enum class Quantity : std::uint32_t { point, vector, normal };
+enum class Direction : std::uint32_t { from_world, to_world };
+inline constexpr std::uint32_t transform_mode(Space s, Quantity q, Direction d) {
+    return static_cast<std::uint32_t>(s) | static_cast<std::uint32_t>(q) << 4 | static_cast<std::uint32_t>(d) << 8;
+}
+
+enum class RayValue : std::uint32_t {
+    is_camera, is_shadow, is_diffuse, is_glossy, is_singular, is_reflection, is_transmission, is_volume,
+    length, depth, diffuse_depth, glossy_depth, transparent_depth, transmission_depth,
+};
+
+}  // namespace cardioid::nodes
