@@ -36,11 +36,13 @@ using EnvironmentEval = std::function<void(int n, const Float3* directions, Floa
 
 struct WorldInput {
     scene::WorldSampling sampling = scene::WorldSampling::automatic;
-    int map_resolution = 1024;
+    int map_resolution = 1024;     ///< columns of the importance map; automatic: the width of the widest image, 0: 1024
     bool constant = true;          ///< no texture: one colour
     Float3 color{0, 0, 0};         ///< when constant
     EnvironmentEval eval;          ///< when not constant
     std::int32_t program = -1;     ///< emission program when not constant
+    std::uint8_t visibility = scene::visible_all;
+    int max_bounces = 1024;
 };
 
 /// Plain arrays that the kernels read, see light/light_data.h.
@@ -51,13 +53,16 @@ public:
     LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
                const WorldInput* world, Float3 scene_min, Float3 scene_max);
     ~LightTable();
+    LightTable(LightTable&&) noexcept;
+    LightTable& operator=(LightTable&&) noexcept;
     const LightData& data() const;
-    /// Emitter id of a triangle, or -1: indexed [emitter_base(instance) + triangle] when the instance has emitters.
+    /// Nothing to sample: no lamp, triangle or world that gives light.
     bool empty() const;
     std::int64_t memory_bytes() const;
 
 private:
-    std::unique_ptr<LightData> data_;
+    struct Storage;
+    std::unique_ptr<Storage> storage_;
 };
 
 }  // namespace cardioid::light
