@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Iterator
 
 MAX_LINES = 400
 LICENSE_LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
