@@ -7,33 +7,38 @@
 // - non-adjoint (camera side, Cycles' convention: radiance is not scaled by eta²).
 #pragma once
 
-#include "bsdf/lobe.h"
-#include "simd/vec.h"
+#include "bsdf/diffuse.h"
+#include "bsdf/families.h"
 
 namespace cardioid::CD_ISA_NS {
 
-struct LobeEval {
-    Spectrum f_cos;
-    Float pdf;
-};
-
-struct LobeSample {
-    Vec3 wi;
-    Spectrum f_cos;     ///< weight·f·|cos|; for delta lanes: weight·f such that throughput *= f_cos/pdf
-    Float pdf;          ///< solid angle; for delta lanes the discrete probability
-    Mask valid, delta, transmitted;
-    Float eta;          ///< 1 for reflection; the relative index passed through for refraction
-};
-
-LobeEval eval_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng);
+inline LobeEval eval_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
+    using bsdf::LobeKind;
+    switch (lobe.kind) {
+    case LobeKind::diffuse: return eval_diffuse(lobe, i, wo, wi, ng);
+    case LobeKind::ggx_reflection: return eval_ggx_reflection(lobe, i, wo, wi, ng);
+    case LobeKind::ggx_refraction:
+    case LobeKind::ggx_glass: return eval_ggx_interface(lobe, i, wo, wi, ng);
+    default: return eval_broad(lobe, i, wo, wi, ng);
+    }
+}
 
 /// u: three uniform numbers in [0,1) per lane (u.z picks reflection or refraction). Inactive lanes give valid = false.
-LobeSample sample_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active);
+inline LobeSample sample_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active) {
+    using bsdf::LobeKind;
+    switch (lobe.kind) {
+    case LobeKind::diffuse: return sample_diffuse(lobe, i, wo, ng, u, active);
+    case LobeKind::ggx_reflection: return sample_ggx_reflection(lobe, i, wo, ng, u, active);
+    case LobeKind::ggx_refraction:
+    case LobeKind::ggx_glass: return sample_ggx_interface(lobe, i, wo, ng, u, active);
+    default: return sample_broad(lobe, i, wo, ng, u, active);
+    }
+}
 
 /// Directional albedo (weight included), approximate: it chooses between lobes and scales layers.
 Spectrum lobe_albedo(const bsdf::Lobe& lobe, int i, Vec3 wo);
 
-/// Lanes whose alpha makes the lobe a delta.
+/// Lanes that are a perfect mirror or window.
 Mask is_delta(const bsdf::Lobe& lobe, int i);
 
 /// Class S (spec 1): deltas, and lobes whose Blender roughness (larger axis) is at or under `caustic_roughness`.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What evaluating and sampling a lobe return. Conventions: bsdf/kernels.h.
+#pragma once
+
+#include "simd/vec.h"
+
+namespace cardioid::CD_ISA_NS {
+
+struct LobeEval {
+    Spectrum f_cos;
+    Float pdf;
+};
+
+struct LobeSample {
+    Vec3 wi;
+    Spectrum f_cos;     ///< weight·f·|cos|; for delta lanes: weight·f such that throughput *= f_cos/pdf
+    Float pdf;          ///< solid angle; for delta lanes the discrete probability
+    Mask valid, delta, transmitted;
+    Float eta;          ///< 1 for reflection; the relative index passed through for refraction
+};
+
+}  // namespace cardioid::CD_ISA_NS
