@@ -3,14 +3,51 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
+from . import camera, world
+from .image import Images
+from .material import Materials
+from .objects import Objects
 from .options import Exported, ExportOptions
 
 
 def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptions) -> Exported:
-    """Fills a new `core.Scene` from `depsgraph`. Raises ExportError when there is nothing to look through."""
-    scene = core.Scene()
-    scene.set_settings({**options.settings, "width": options.resolution[0], "height": options.resolution[1],
-                        "crop": options.crop})
-    return Exported(scene)
+    """Fills a new `core.Scene` from `depsgraph`, evaluated for rendering.
+
+    Raises ExportError when there is nothing to look through, ExportCancelled when `options.should_stop` says so.
+    """
+    exported = Exported(core.Scene())
+    target, warnings, timings = exported.scene, exported.warnings, exported.timings
+    source = depsgraph.scene_eval
+    layer = depsgraph.view_layer_eval or view_layer
+    images = Images(target, source.frame_current, warnings)
+    materials = Materials(target, images, layer.material_override, warnings)
+    with _timed(timings, "total"):
+        viewer = camera.camera_object(source, options)
+        target.set_camera(camera.describe(viewer, source, options, warnings))
+        target.set_settings({**options.settings, "width": options.resolution[0], "height": options.resolution[1],
+                             "crop": list(options.crop)})
+        with _timed(timings, "world"):
+            _world(target, world.current(source, layer), materials)
+        with _timed(timings, "objects"):
+            Objects(target, depsgraph, layer, materials, options, warnings).export()
+    exported.warnings[:] = dict.fromkeys(warnings)
+    return exported
+
+
+def _world(target: Any, background: Any, materials: Materials) -> None:
+    if background is not None:
+        target.set_world(world.describe(background, materials.graph(background, "World")))
+
+
+@contextmanager
+def _timed(timings: dict[str, float], stage: str) -> Iterator[None]:
+    start = time.perf_counter()
+    try:
+        yield
+    finally:
+        timings[stage] = timings.get(stage, 0.0) + time.perf_counter() - start

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that differs between Blender's versions, in one table and the few functions that read it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+VERSION: tuple[int, int, int] = tuple(bpy.app.version)
+
+# What is different: (first version that has it, meaning). `has(key)` is the only reader.
+SINCE: dict[str, tuple[int, int]] = {
+    "nodes_always_on": (5, 0),       # use_nodes is deprecated and has no effect
+    "corner_normals": (4, 1),        # mesh.corner_normals; before: calc_normals_split and auto smooth
+    "array_attributes": (4, 1),      # 'position' and '.corner_vert' are attributes, uv_layer.uv exists
+    "principled_2": (4, 0),          # Principled BSDF with Coat, Sheen Weight, …
+    "sphere_lamps": (4, 0),          # soft point and spot lamps are spheres unless use_soft_falloff
+    "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
+    "emission_sampling": (3, 5),     # material.cycles.emission_sampling replaces sample_as_light
+    "material_transparent_shadow": (4, 2),  # on the material; before: on material.cycles
+}
+
+
+def has(key: str) -> bool:
+    return VERSION[:2] >= SINCE[key]
+
+
+def node_tree(owner: Any) -> Any:
+    """The shading nodes of a material, world or light, or None when it does without."""
+    if owner.node_tree is None:
+        return None
+    always_on = has("nodes_always_on") and not isinstance(owner, bpy.types.Light)
+    return owner.node_tree if always_on or owner.use_nodes else None
+
+
+def cycles(owner: Any, name: str, default: Any) -> Any:
+    """A property that Cycles' add-on keeps on the data-block; `default` when that add-on is off or lacks it."""
+    return getattr(getattr(owner, "cycles", None), name, default)
+
+
+def casts_shadow(light: Any) -> bool:
+    return bool(light.use_shadow if has("light_use_shadow") else cycles(light, "cast_shadow", True))
+
+
+def samples_emission(material: Any) -> bool:
+    if has("emission_sampling"):
+        return cycles(material, "emission_sampling", "AUTO") != "NONE"
+    return bool(cycles(material, "sample_as_light", True))
+
+
+def transparent_shadow(material: Any) -> bool:
+    if has("material_transparent_shadow"):
+        return bool(material.use_transparent_shadow)
+    return bool(cycles(material, "use_transparent_shadow", True))
+
+
+def legacy_lamp(light: Any) -> bool:
+    """Soft lamps that face the shaded point, as all did before 4.0."""
+    return not has("sphere_lamps") or bool(getattr(light, "use_soft_falloff", False))
+
+
+def node_versions(node_type: str) -> dict[str, Any]:
+    """Parameters that tell apart nodes which share a type but not a meaning."""
+    if node_type == "ShaderNodeBsdfPrincipled":
+        return {"version": 2 if has("principled_2") else 1}
+    return {}

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Evaluated meshes as arrays. Nothing here loops over elements in Python."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import compat
+from .arrays import foreach, memory
+from .attributes import layers
+from .normals import corner_normals
+
+_TRIANGLE = np.dtype((np.int32, 3))                             # 4.1 and later: corners only
+_TRIANGLE_POLYGON = np.dtype([("corners", np.int32, 3), ("polygon", np.int32)])  # before
+_LOOP = np.dtype([("vertex", np.int32), ("edge", np.int32)])    # before 4.1
+
+
+@dataclass
+class Triangles:
+    """corners (T, 3), vertices (T, 3), polygon (T,): indices into the mesh's own arrays."""
+
+    corners: np.ndarray
+    vertices: np.ndarray
+    polygon: np.ndarray
+
+
+def add(scene: Any, name: str, mesh: Any, wanted: set[str], warnings: list[str]) -> int:
+    """Adds an evaluated mesh to `scene`; -1 when it has no triangles. `wanted`: attributes that materials name."""
+    mesh.calc_loop_triangles()
+    if len(mesh.loop_triangles) == 0:
+        return -1
+    positions = _positions(mesh)
+    tris = triangles(mesh)
+    uvs = mesh.uv_layers
+    generated_min, generated_size = _texture_space(mesh)
+    return scene.add_mesh(
+        name, positions, tris.vertices,
+        slots=_slots(mesh, tris),
+        corner_normals=corner_normals(mesh, positions, tris),
+        attributes=layers(mesh, tris, wanted, name, warnings),
+        active_uv=next((layer.name for layer in uvs if layer.active_render), ""),
+        active_color=_active_color(mesh),
+        generated_min=generated_min, generated_size=generated_size)
+
+
+def triangles(mesh: Any) -> Triangles:
+    tris = mesh.loop_triangles
+    if compat.has("array_attributes"):
+        corners = memory(tris, _TRIANGLE)
+        polygon = foreach(mesh.loop_triangle_polygons, "value", np.int32)
+        corner_vertex = foreach(mesh.attributes[".corner_vert"].data, "value", np.int32)
+    else:
+        packed = memory(tris, _TRIANGLE_POLYGON)
+        corners = None if packed is None else packed["corners"]
+        polygon = foreach(tris, "polygon_index", np.int32) if packed is None else packed["polygon"].copy()
+        loops = memory(mesh.loops, _LOOP)
+        corner_vertex = foreach(mesh.loops, "vertex_index", np.int32) if loops is None else loops["vertex"]
+    corners = foreach(tris, "loops", np.int32, 3) if corners is None else np.array(corners, np.int32, order="C")
+    return Triangles(corners, np.ascontiguousarray(corner_vertex[corners]), polygon)
+
+
+def _positions(mesh: Any) -> np.ndarray:
+    if compat.has("array_attributes"):
+        return foreach(mesh.attributes["position"].data, "vector", np.float32, 3)
+    return foreach(mesh.vertices, "co", np.float32, 3)
+
+
+def _slots(mesh: Any, tris: Triangles) -> np.ndarray | None:
+    """Material slot of each triangle; None when all use the first."""
+    attribute = mesh.attributes.get("material_index")
+    if attribute is None or attribute.domain != "FACE":
+        return None
+    indices = foreach(attribute.data, "value", np.int32)
+    return indices[tris.polygon] if indices.any() else None
+
+
+def _texture_space(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
+    """The box whose corners have Generated coordinates 0 and 1. An extent of 0 counts as 2, as in Blender."""
+    location = np.array(mesh.texspace_location, np.float32)
+    half = np.array(mesh.texspace_size, np.float32)
+    half[half == 0] = 1
+    return location - half, 2 * half
+
+
+def _active_color(mesh: Any) -> str:
+    index = mesh.color_attributes.render_color_index
+    names = mesh.color_attributes
+    return names[index].name if 0 <= index < len(names) else ""

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every placed object of the depsgraph: meshes once, their instances as instances, lamps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import light, mesh, names
+from .material import Materials, attribute_names
+from .options import ExportCancelled, ExportOptions
+
+_UNSUPPORTED = {"CURVES": "hair curves are", "POINTCLOUD": "point clouds are", "VOLUME": "volumes are",
+                "GPENCIL": "grease pencil is", "GREASEPENCIL": "grease pencil is"}
+_CHECK_EVERY = 256  # instances between questions to should_stop
+
+
+@dataclass
+class _Kind:
+    """What the placements of one object, under one instancer, have in common. mesh -1: nothing to place."""
+
+    mesh: int
+    desc: dict[str, Any]
+
+
+class Objects:
+    """One use: `Objects(…).export()`."""
+
+    def __init__(self, scene: Any, depsgraph: Any, view_layer: Any, materials: Materials, options: ExportOptions,
+                 warnings: list[str]) -> None:
+        self._scene, self._depsgraph, self._view_layer = scene, depsgraph, view_layer
+        self._materials, self._options, self._warnings = materials, options, warnings
+        self._wanted = attribute_names()
+        self._meshes: dict[int, int] = {}
+        self._kinds: dict[tuple[int, int, int], _Kind | None] = {}
+        self._told: set[str] = set()
+
+    def export(self) -> None:
+        stop = self._options.should_stop
+        for number, instance in enumerate(self._depsgraph.object_instances):
+            if stop and number % _CHECK_EVERY == 0 and stop():
+                raise ExportCancelled
+            self._one(instance)
+
+    def _one(self, instance: Any) -> None:
+        obj = instance.object
+        if instance.show_particles:
+            self._hair(obj)
+        if not instance.show_self:
+            return
+        try:
+            if obj.type == "MESH":
+                self._place(instance, obj)
+            elif obj.type == "LIGHT":
+                self._lamp(instance, obj)
+            elif obj.type in _UNSUPPORTED:
+                self._tell(f"Object “{obj.name}”: {_UNSUPPORTED[obj.type]} not supported, left out")
+        except Exception as error:
+            self._tell(f"Object “{obj.name}” is left out: {error}")
+
+    def _place(self, instance: Any, obj: Any) -> None:
+        # An instance's object is one temporary that is refilled for each step: only its source has an identity.
+        dupli = instance.is_instance
+        source = instance.instance_object if dupli else obj
+        parent = instance.parent if dupli else None
+        key = (source.as_pointer(), obj.data.as_pointer(), parent.as_pointer() if dupli else 0)
+        if key not in self._kinds:
+            self._kinds[key] = None  # stays so when this fails: told once, not for each instance
+            self._kinds[key] = self._kind(obj, parent)
+        kind = self._kinds[key]
+        if kind is None or kind.mesh < 0:
+            return
+        desc = {**kind.desc, "transform": names.affine(instance.matrix_world)}
+        if dupli:
+            desc["random"] = names.unit_random(instance.random_id)
+            desc["dupli_generated"] = [0.5 * v - 0.5 for v in instance.orco]
+            desc["dupli_uv"] = list(instance.uv)
+        self._scene.add_instance(desc)
+
+    def _kind(self, obj: Any, parent: Any) -> _Kind:
+        owner = parent or obj
+        holdout = owner.is_holdout or owner.holdout_get(view_layer=self._view_layer)
+        visibility = names.object_visibility(obj) & names.object_visibility(owner)
+        if not holdout and owner.indirect_only_get(view_layer=self._view_layer):
+            visibility &= ~names.CAMERA
+        if visibility == 0:
+            return _Kind(-1, {})
+        if obj.is_shadow_catcher or owner.is_shadow_catcher:
+            self._tell(f"Object “{obj.name}”: shadow catchers are not supported, rendered as it is")
+        index = self._mesh(obj)
+        return _Kind(index, {} if index < 0 else {
+            "name": obj.name, "mesh": index, "materials": self._materials.indices(obj), "visibility": visibility,
+            "holdout": bool(holdout), "pass_index": obj.pass_index, "color": list(obj.color),
+            "random": names.unit_random(names.hash_name(obj.name))})
+
+    def _mesh(self, obj: Any) -> int:
+        key = obj.data.as_pointer()
+        if key not in self._meshes:
+            self._meshes[key] = -1
+            self._meshes[key] = mesh.add(self._scene, obj.data.name, obj.data, self._wanted, self._warnings)
+        return self._meshes[key]
+
+    def _lamp(self, instance: Any, obj: Any) -> None:
+        graph = self._materials.graph(obj.data, "Light")
+        self._scene.add_light(light.describe(obj, instance.matrix_world, graph))
+
+    def _hair(self, obj: Any) -> None:
+        if any(p.settings.type == "HAIR" and p.settings.render_type == "PATH" for p in obj.particle_systems):
+            self._tell(f"Object “{obj.name}”: hair is not supported, left out")
+
+    def _tell(self, message: str) -> None:
+        if message not in self._told:
+            self._told.add(message)
+            self._warnings.append(message)
