@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cardioid: a render engine for Blender. `register` works, and says what is missing, where the engine cannot be loaded."""
+
+bl_info = {
+    "name": "Cardioid",
+    "author": "The Cardioid authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "Render Properties, Render Engine",
+    "description": "Path tracing with correct caustics, for files made with Cycles",
+    "category": "Render",
+}
+
+import atexit
+
+import bpy
+
+from . import core, engine, messages, passes, sessions, settings, ui
+
+_modules = (messages, sessions, settings, passes, ui, engine)
+
+
+def register() -> None:
+    core.forget()
+    for module in _modules:
+        module.register()
+    if getattr(bpy.app, "module", False):
+        # Blender as a Python module crashes or hangs at exit while classes of add-ons are registered (4.2, 4.5)
+        atexit.register(unregister)
+
+
+def unregister() -> None:
+    atexit.unregister(unregister)
+    for module in reversed(_modules):
+        module.unregister()

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One call of Blender's render(): a frame of one view layer, in each of its views."""
+
+from __future__ import annotations
+
+import time
+from types import ModuleType
+from typing import Any
+
+import bpy
+
+from . import cli_args, core, export, frame_size, messages, passes, render_loop, sessions, stats_file
+from .messages import RenderProblem
+from .render_result import Target
+from .resolve import resolve
+
+
+def render(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
+    """Renders into the engine's result. Raises RenderProblem with a sentence for the artist."""
+    module = core.load()
+    if module is None:
+        raise RenderProblem(core.problem())
+    arguments = cli_args.current()
+    if arguments.problems:
+        raise RenderProblem(messages.summary(arguments.problems))
+    with sessions.exclusive(preview=engine.is_preview):
+        for view in _views(engine):
+            if not engine.test_break():
+                _render_view(engine, module, depsgraph, view, arguments)
+
+
+def _views(engine: bpy.types.RenderEngine) -> list[str]:
+    """Names of the stereo or multi-view views that Blender wants; one empty name without them."""
+    result = engine.get_result()
+    names = [view.name for view in result.views] if result else []
+    return names or [""]
+
+
+def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph, view: str,
+                 arguments: cli_args.Arguments) -> None:
+    scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
+    overrides = {} if engine.is_preview else arguments.overrides
+    try:
+        settings = resolve(scene, layer, overrides, preview=engine.is_preview)
+    except ValueError as error:
+        raise RenderProblem(str(error)) from error
+    if view:
+        engine.active_view_set(view)
+    wanted = list(passes.enabled(layer))
+    start = time.monotonic()
+    exported = _export(engine, module, depsgraph, settings, wanted)
+    if exported is None:
+        return
+    if not engine.is_preview:
+        messages.warn(engine, exported.warnings)
+    target = Target(engine, layer.name, view, frame_size.result_size(scene.render), frame_size.crop(scene.render), wanted)
+    entry = {"frame": scene.frame_current, "layer": layer.name, "view": view, "settings": settings,
+             "export": exported.timings, "export_seconds": time.monotonic() - start}
+    try:
+        _run(engine, module, exported, target, entry)
+    finally:
+        target.close()
+    if not engine.is_preview:
+        _stamp(engine, layer.name, entry)
+        if arguments.stats:
+            stats_file.add(arguments.stats, entry, core.versions())
+
+
+def _export(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph,
+            settings: dict[str, Any], wanted: list[passes.Pass]) -> export.Exported | None:
+    """The exported scene, or None when the user stopped it."""
+    render_settings = depsgraph.scene_eval.render
+    if not engine.is_preview:
+        engine.update_stats("", "Exporting the scene")
+    options = export.ExportOptions(
+        resolution=frame_size.resolution(render_settings), crop=frame_size.crop(render_settings), settings=settings,
+        passes=tuple(one.engine for one in wanted), engine=engine, should_stop=engine.test_break)
+    try:
+        return export.build_scene(module, depsgraph, depsgraph.view_layer_eval, options)
+    except export.ExportCancelled:
+        return None
+    except export.ExportError as error:
+        raise RenderProblem(str(error)) from error
+    except module.Error as error:
+        raise _engine_problem(error) from error
+
+
+def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Exported, target: Target,
+         entry: dict[str, Any]) -> None:
+    start = time.monotonic()
+    try:
+        with sessions.opened(module.Session(exported.scene)) as session:
+            entry["complete"] = render_loop.run(engine, session, target, quiet=engine.is_preview)
+            if not engine.is_preview:
+                messages.warn(engine, session.warnings())
+            entry["samples"] = session.progress().get("samples", 0)
+            entry["engine"] = session.stats()
+    except module.Error as error:
+        raise _engine_problem(error) from error
+    entry["render_seconds"] = time.monotonic() - start
+
+
+def _engine_problem(error: Exception) -> RenderProblem:
+    return RenderProblem(messages.summary(getattr(error, "problems", None) or [str(error)]))
+
+
+def _stamp(engine: bpy.types.RenderEngine, layer: str, entry: dict[str, Any]) -> None:
+    """Metadata that Blender writes into the saved picture."""
+    result = engine.get_result()
+    if result is None:
+        return
+    seconds = entry["export_seconds"] + entry["render_seconds"]
+    for field, value in (
+            ("cardioid.version", core.versions().get("engine", "")),
+            (f"cardioid.{layer}.integrator", entry["settings"]["integrator"]),
+            (f"cardioid.{layer}.samples", entry["samples"]),
+            (f"cardioid.{layer}.seed", entry["settings"]["seed"]),
+            (f"cardioid.{layer}.render_time", f"{seconds:.2f}")):
+        result.stamp_data_add_field(field, str(value))

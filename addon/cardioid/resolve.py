@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From Blender's scene to the engine's Settings: what the user set, what Cycles is set to, what the command line says."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import bpy
+
+from . import cycles_values
+from .settings_table import k_integrators, k_settings
+
+k_preview_samples = 24
+k_preview_bounces = 6
+k_preview_seconds = 4.0
+k_megabyte = 1 << 20
+
+
+def resolve(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, overrides: dict[str, Any] | None = None,
+            *, preview: bool = False) -> dict[str, Any]:
+    """Keywords for the engine's `set_settings`, without width, height and crop (the exporter knows them).
+
+    overrides: values by their names in scene.cardioid that win over the scene's (command line).
+    Raises ValueError with a sentence for the artist.
+    """
+    values = {setting.name: getattr(scene.cardioid, setting.name) for setting in k_settings}
+    values["integrator"] = scene.cardioid.integrator
+    values["samples"], values["sample_offset"] = _samples(scene, view_layer, values)
+    values["filter_width"] = _filter_width(values)
+    if preview:
+        values.update(samples=min(values["samples"], k_preview_samples), time_limit=k_preview_seconds,
+                      max_bounces=min(values["max_bounces"], k_preview_bounces), sample_offset=0)
+    values.update(overrides or {})
+    values["seed"] = _seed(scene, values)
+    return _engine_settings(scene, values)
+
+
+def _samples(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, values: dict[str, Any]) -> tuple[int, int]:
+    """Samples and the first of them, with the view layer's own count and Cycles' sample subset while following Cycles."""
+    samples, offset = values["samples"], values["sample_offset"]
+    # From 4.5 on Cycles' offset counts only while its sample subset is switched on
+    subset = cycles_values.value(scene, "use_sample_subset", None)
+    if subset is False and not scene.cardioid.is_own("sample_offset"):
+        offset = 0
+    if scene.cardioid.is_own("samples"):
+        return samples, offset
+    rule = cycles_values.value(scene, "use_layer_samples", "USE")
+    if view_layer.samples > 0 and rule != "IGNORE":
+        samples = min(samples, view_layer.samples) if rule == "BOUNDED" else view_layer.samples
+    if subset:
+        samples = max(1, min(samples - offset, cycles_values.value(scene, "sample_subset_length", samples)))
+    return samples, offset
+
+
+def _filter_width(values: dict[str, Any]) -> float:
+    """Cycles' box filter is one pixel wide whatever the width says."""
+    return 1.0 if values["pixel_filter"] == "BOX" else values["filter_width"]
+
+
+def _seed(scene: bpy.types.Scene, values: dict[str, Any]) -> int:
+    if not values["use_animated_seed"]:
+        return values["seed"]
+    # Knuth's multiplicative step spreads neighbouring frames over all seeds
+    frame = scene.frame_current + scene.frame_subframe
+    return (values["seed"] + int(frame * 1000) * 2654435761) & 0x7FFFFFFF
+
+
+def _threads(scene: bpy.types.Scene, threads: int) -> int:
+    if threads == 0 and scene.render.threads_mode == "FIXED":
+        return scene.render.threads
+    return threads
+
+
+def _engine_settings(scene: bpy.types.Scene, values: dict[str, Any]) -> dict[str, Any]:
+    if values["integrator"] not in k_integrators:
+        raise ValueError("This file asks for an integrator that this version of Cardioid does not have; choose another "
+                         "in Render Properties, Sampling")
+    engine = {setting.key: values[setting.name] for setting in k_settings if setting.key}
+    engine["integrator"] = k_integrators[values["integrator"]][3]
+    engine["pixel_filter"] = values["pixel_filter"].lower()
+    engine["threads"] = _threads(scene, values["threads"])
+    engine["memory_limit"] = values["memory_limit"] * k_megabyte
+    engine["transparent_film"] = scene.render.film_transparent
+    engine["ocio_config"] = ocio_config()
+    return engine
+
+
+def ocio_config() -> str:
+    """Path of Blender's colour configuration; empty when there is none."""
+    given = os.environ.get("OCIO", "")
+    if given:
+        return given
+    folder = bpy.utils.system_resource("DATAFILES", path="colormanagement")
+    path = os.path.join(folder, "config.ocio") if folder else ""
+    return path if path and os.path.exists(path) else ""

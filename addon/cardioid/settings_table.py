@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every render setting in one table: its name in `scene.cardioid`, the artist's words, the Cycles setting that it follows
+and the key of the engine's Settings (engine_cpp/scene/scene_desc.h) that it becomes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+k_integrators = {
+    # identifier: (label, description, stable number in .blend files, engine name)
+    "PTPPM": ("Path Tracing + Photons", "Path tracing for all light except caustics, photons for the caustics", 0,
+              "ptppm"),
+    "PT": ("Path Tracing", "Path tracing alone; caustics of small lamps stay noisy", 1, "path_tracing"),
+    "SPPM": ("Photon Mapping", "Progressive photon mapping for everything but directly visible light", 2, "sppm"),
+}
+
+k_pixel_filters = {
+    "BOX": ("Box", "Average over the pixel's own square; hard edges", 0),
+    "GAUSSIAN": ("Gaussian", "Soft filter", 1),
+    "BLACKMAN_HARRIS": ("Blackman-Harris", "Soft filter that keeps edges sharp; Cycles' default", 2),
+}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One property of `scene.cardioid`.
+
+    kind: int, float, bool, or enum (with `items`: identifier to (label, description, number)).
+    cycles: the attribute of scene.cycles that it follows until the user changes it; None: it has a value of its own.
+    key: the engine's name for it; None: used by the add-on only.
+    options: further keywords of the bpy property (min, max, subtype, …).
+    """
+
+    name: str
+    kind: str
+    label: str
+    description: str
+    default: Any
+    cycles: str | None = None
+    key: str | None = None
+    items: dict | None = None
+    options: dict = field(default_factory=dict)
+
+
+def _bounces(name: str, label: str, description: str, default: int, cycles: str, key: str) -> Setting:
+    return Setting(name, "int", label, description, default, cycles, key, options={"min": 0, "max": 1024})
+
+
+k_settings = (
+    Setting("samples", "int", "Samples", "Camera paths traced for each pixel. More samples: less noise, longer render",
+            4096, "samples", "samples", options={"min": 1, "max": 1 << 24}),
+    Setting("time_limit", "float", "Time Limit",
+            "Stop after this time and keep the picture as it is then. Export and scene build are not counted. 0: no limit",
+            0.0, "time_limit", "time_limit", options={"min": 0.0, "step": 100, "unit": "TIME_ABSOLUTE"}),
+    Setting("seed", "int", "Seed", "Another seed gives another pattern of noise",
+            0, "seed", "seed", options={"min": 0, "max": 2147483647}),
+    Setting("use_animated_seed", "bool", "Animated Seed", "Change the pattern of noise on every frame",
+            False, "use_animated_seed"),
+    Setting("sample_offset", "int", "Sample Offset",
+            "Skip this many samples first, to render parts of a frame on several machines and merge them",
+            0, "sample_offset", "first_sample", options={"min": 0, "max": 1 << 24}),
+    _bounces("max_bounces", "Total", "Largest number of times that light may bounce on its way to the camera",
+             12, "max_bounces", "max_bounces"),
+    _bounces("diffuse_bounces", "Diffuse", "Largest number of diffuse bounces, within the total",
+             4, "diffuse_bounces", "max_diffuse_bounces"),
+    _bounces("glossy_bounces", "Glossy", "Largest number of glossy bounces, within the total",
+             4, "glossy_bounces", "max_glossy_bounces"),
+    _bounces("transmission_bounces", "Transmission", "Largest number of passages through glass, within the total",
+             12, "transmission_bounces", "max_transmission_bounces"),
+    _bounces("transparent_bounces", "Transparent",
+             "Largest number of transparent surfaces that a ray passes; counted apart from the other bounces",
+             8, "transparent_max_bounces", "max_transparent_bounces"),
+    Setting("clamp_direct", "float", "Direct Light",
+            "Brightest value that a direct light path may add. Removes fireflies and real light with them. 0: no clamping",
+            0.0, "sample_clamp_direct", "clamp_direct", options={"min": 0.0, "max": 1e8}),
+    Setting("clamp_indirect", "float", "Indirect Light",
+            "Brightest value that an indirect light path may add. Removes fireflies and real light with them. "
+            "0: no clamping",
+            10.0, "sample_clamp_indirect", "clamp_indirect", options={"min": 0.0, "max": 1e8}),
+    Setting("reflective_caustics", "bool", "Reflective", "Light that mirrors and metal throw onto rougher surfaces",
+            True, "caustics_reflective", "reflective_caustics"),
+    Setting("refractive_caustics", "bool", "Refractive", "Light that glass and water gather onto rougher surfaces",
+            True, "caustics_refractive", "refractive_caustics"),
+    Setting("filter_glossy", "float", "Filter Glossy",
+            "Blur sharp reflections seen in rougher ones: less noise, less truth. 0: off",
+            1.0, "blur_glossy", "filter_glossy", options={"min": 0.0, "max": 10.0}),
+    Setting("caustic_roughness", "float", "Caustic Roughness",
+            "Reflections and refractions at or under this roughness count as sharp: photons take the light behind them",
+            0.0, None, "caustic_roughness", options={"min": 0.0, "max": 1.0, "subtype": "FACTOR"}),
+    Setting("pixel_filter", "enum", "Type", "How samples between pixels are weighed",
+            "BLACKMAN_HARRIS", "pixel_filter_type", "pixel_filter", k_pixel_filters),
+    Setting("filter_width", "float", "Width", "Width of the pixel filter; wider is softer",
+            1.5, "filter_width", "filter_width", options={"min": 0.01, "max": 10.0, "subtype": "PIXEL"}),
+    Setting("exposure", "float", "Exposure", "Brightness of the picture as it is saved, passes included",
+            1.0, "film_exposure", "exposure", options={"min": 0.0, "max": 10.0}),
+    Setting("transparent_glass", "bool", "Transparent Glass",
+            "Let the background's transparency show through glass too", False, "film_transparent_glass",
+            "transparent_glass"),
+    Setting("transparent_roughness", "float", "Roughness Threshold", "Glass rougher than this stays opaque",
+            0.1, "film_transparent_roughness", "transparent_roughness", options={"min": 0.0, "max": 1.0}),
+    Setting("threads", "int", "Threads", "Processor threads to render with. 0: as Blender is set",
+            0, None, "threads", options={"min": 0, "max": 1024}),
+    Setting("robust_intersection", "bool", "Watertight Rays",
+            "Never let a ray slip between two triangles that share an edge. Slower by 12 to 20 percent; "
+            "for closed models that are very finely meshed or far from the origin",
+            False, None, "robust_intersection"),
+    Setting("physical_refraction", "bool", "Physical Refraction",
+            "Let light grow brighter as it enters a denser medium, as in nature. Cycles does not: a pool's floor is then "
+            "1.77 times as bright in Cycles as with this",
+            False, None, "physical_refraction"),
+    Setting("memory_limit", "int", "Memory Limit (MB)",
+            "Refuse to start a render that needs more memory than this. 0: the machine's memory",
+            0, None, "memory_limit", options={"min": 0, "max": 1 << 24}),
+    Setting("texture_cache", "int", "Texture Cache (MB)", "Memory for textures; larger files are read in pieces",
+            1024, None, "texture_cache_mb", options={"min": 16, "max": 1 << 20}),
+)
+
+k_by_name = {setting.name: setting for setting in k_settings}

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Render Properties: Sampling, Light Paths, Film, Performance."""
+
+from __future__ import annotations
+
+import bpy
+
+from .. import core
+from .common import CardioidPanel, register_all, setting, split, unregister_all, wrapped
+
+
+def draw_engine_problem(self, context):
+    """Under the engine's name: why nothing can be rendered, if so."""
+    if context.engine == "CARDIOID" and core.problem():
+        wrapped(self.layout.box(), core.problem(), "ERROR")
+
+
+class CARDIOID_RENDER_PT_sampling(CardioidPanel, bpy.types.Panel):
+    bl_label = "Sampling"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        layout.prop(settings, "integrator")
+        column = layout.column(align=True)
+        setting(column, settings, "samples")
+        setting(column, settings, "time_limit")
+        changed = len(settings.own_names())
+        if changed == 0:
+            wrapped(layout, "Settings follow Cycles' until you change them", "LINKED")
+            return
+        row = layout.row()
+        row.label(text=f"{changed} changed here, the others follow Cycles", icon="LINKED")
+        row.operator("cardioid.follow_cycles", text="", icon="LOOP_BACK").setting = ""
+
+
+class CARDIOID_RENDER_PT_sampling_advanced(CardioidPanel, bpy.types.Panel):
+    bl_label = "Advanced"
+    bl_parent_id = "CARDIOID_RENDER_PT_sampling"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        setting(layout, settings, "seed")
+        setting(layout, settings, "use_animated_seed")
+        setting(layout, settings, "sample_offset")
+
+
+class CARDIOID_RENDER_PT_light_paths(CardioidPanel, bpy.types.Panel):
+    bl_label = "Light Paths"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """Only a heading."""
+
+
+class CARDIOID_RENDER_PT_bounces(CardioidPanel, bpy.types.Panel):
+    bl_label = "Max Bounces"
+    bl_parent_id = "CARDIOID_RENDER_PT_light_paths"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        setting(layout, settings, "max_bounces")
+        column = layout.column(align=True)
+        for name in ("diffuse_bounces", "glossy_bounces", "transmission_bounces"):
+            setting(column, settings, name)
+        setting(layout, settings, "transparent_bounces")
+
+
+class CARDIOID_RENDER_PT_clamping(CardioidPanel, bpy.types.Panel):
+    bl_label = "Clamping"
+    bl_parent_id = "CARDIOID_RENDER_PT_light_paths"
+
+    def draw(self, context):
+        column = split(self.layout).column(align=True)
+        settings = context.scene.cardioid
+        setting(column, settings, "clamp_direct")
+        setting(column, settings, "clamp_indirect")
+
+
+class CARDIOID_RENDER_PT_caustics(CardioidPanel, bpy.types.Panel):
+    bl_label = "Caustics"
+    bl_parent_id = "CARDIOID_RENDER_PT_light_paths"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        setting(layout, settings, "filter_glossy")
+        column = layout.column(heading="Caustics", align=True)
+        setting(column, settings, "reflective_caustics")
+        setting(column, settings, "refractive_caustics")
+        if settings.integrator != "PT":
+            layout.prop(settings, "caustic_roughness")
+        layout.prop(settings, "physical_refraction")
+
+
+class CARDIOID_RENDER_PT_film(CardioidPanel, bpy.types.Panel):
+    bl_label = "Film"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        setting(split(self.layout), context.scene.cardioid, "exposure")
+
+
+class CARDIOID_RENDER_PT_transparent(CardioidPanel, bpy.types.Panel):
+    bl_label = "Transparent"
+    bl_parent_id = "CARDIOID_RENDER_PT_film"
+
+    def draw_header(self, context):
+        self.layout.prop(context.scene.render, "film_transparent", text="")
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        layout.active = context.scene.render.film_transparent
+        setting(layout, settings, "transparent_glass")
+        column = layout.column()
+        column.active = settings.transparent_glass
+        setting(column, settings, "transparent_roughness")
+
+
+class CARDIOID_RENDER_PT_pixel_filter(CardioidPanel, bpy.types.Panel):
+    bl_label = "Pixel Filter"
+    bl_parent_id = "CARDIOID_RENDER_PT_film"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        setting(layout, settings, "pixel_filter")
+        if settings.pixel_filter != "BOX":
+            setting(layout, settings, "filter_width")
+
+
+class CARDIOID_RENDER_PT_performance(CardioidPanel, bpy.types.Panel):
+    bl_label = "Performance"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        """Only a heading."""
+
+
+class CARDIOID_RENDER_PT_threads(CardioidPanel, bpy.types.Panel):
+    bl_label = "Threads"
+    bl_parent_id = "CARDIOID_RENDER_PT_performance"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings, render = context.scene.cardioid, context.scene.render
+        layout.prop(settings, "threads", text="Cardioid")
+        column = layout.column(align=True)
+        column.active = settings.threads == 0
+        column.prop(render, "threads_mode", text="Blender")
+        row = column.row()
+        row.enabled = render.threads_mode == "FIXED"
+        row.prop(render, "threads")
+
+
+class CARDIOID_RENDER_PT_memory(CardioidPanel, bpy.types.Panel):
+    bl_label = "Memory and Geometry"
+    bl_parent_id = "CARDIOID_RENDER_PT_performance"
+
+    def draw(self, context):
+        layout = split(self.layout)
+        settings = context.scene.cardioid
+        column = layout.column(align=True)
+        column.prop(settings, "memory_limit")
+        column.prop(settings, "texture_cache")
+        layout.prop(settings, "robust_intersection")
+
+
+_classes = (
+    CARDIOID_RENDER_PT_sampling, CARDIOID_RENDER_PT_sampling_advanced, CARDIOID_RENDER_PT_light_paths,
+    CARDIOID_RENDER_PT_bounces, CARDIOID_RENDER_PT_clamping, CARDIOID_RENDER_PT_caustics, CARDIOID_RENDER_PT_film,
+    CARDIOID_RENDER_PT_transparent, CARDIOID_RENDER_PT_pixel_filter, CARDIOID_RENDER_PT_performance,
+    CARDIOID_RENDER_PT_threads, CARDIOID_RENDER_PT_memory)
+
+
+def register() -> None:
+    register_all(_classes)
+    bpy.types.RENDER_PT_context.append(draw_engine_problem)
+
+
+def unregister() -> None:
+    bpy.types.RENDER_PT_context.remove(draw_engine_problem)
+    unregister_all(_classes)

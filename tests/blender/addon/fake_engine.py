@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A stand-in for `cardioid._core`: accepts any scene and renders a gradient, pass by pass, on a thread of its own.
+
+What a test wants it to do is set in `behaviour`; what the add-on asked for is in `scenes` and `sessions`.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from types import SimpleNamespace
+
+import numpy as np
+
+behaviour = SimpleNamespace()
+scenes: list[Scene] = []
+sessions: list[Session] = []
+
+k_channels = {"Combined": 4, "Depth": 1, "Normal": 3, "D1": 3, "D2": 3, "D3": 3}
+
+
+def reset() -> None:
+    behaviour.sample_seconds = 0.0     # time that a sample takes
+    behaviour.build_seconds = 0.0
+    behaviour.fail = ""                # message of a render that fails
+    behaviour.refuse = []              # problems of a scene that cannot be rendered
+    behaviour.warnings = []
+    behaviour.whole_frame = False      # pictures of the whole frame although a crop was asked for
+    behaviour.on_sample = None         # called with the session after each sample
+    scenes.clear()
+    sessions.clear()
+
+
+class Error(Exception):
+    def __init__(self, problems):
+        super().__init__("; ".join(problems))
+        self.problems = list(problems)
+
+
+def integrators():
+    return ["PT"]
+
+
+def version():
+    return {"engine": "0.0.fake", "embree": "none", "isa": "none"}
+
+
+class Scene:
+    """Records each call as (method, arguments); `add_…` return running indices."""
+
+    def __init__(self):
+        self.calls = []
+        self.settings = {}
+        self._counts = {}
+        scenes.append(self)
+
+    def set_settings(self, settings):
+        self.settings.update(settings)
+
+    def problems(self):
+        return []
+
+    def memory_estimate(self):
+        return 1 << 20
+
+    def __getattr__(self, name):
+        if not name.startswith(("add_", "set_")):
+            raise AttributeError(name)
+
+        def record(*arguments, **keywords):
+            self.calls.append((name, arguments, keywords))
+            self._counts[name] = self._counts.get(name, -1) + 1
+            return self._counts[name]
+
+        return record
+
+
+class Frame:
+    def __init__(self, size, samples):
+        self.width, self.height = size
+        self.samples = samples
+
+    def names(self):
+        return list(k_channels)
+
+    def array(self, name):
+        """x in red, y in green, the share of finished samples in blue; depth: x + y in pixels."""
+        y, x = np.mgrid[0:self.height, 0:self.width].astype(np.float32)
+        if name == "Depth":
+            return (x + y)[..., None]
+        picture = np.empty((self.height, self.width, k_channels[name]), np.float32)
+        picture[..., 0] = (x + 0.5) / self.width
+        picture[..., 1] = (y + 0.5) / self.height
+        picture[..., 2] = {"Combined": self.samples, "Normal": 1, "D1": 10, "D2": 20, "D3": 30}[name]
+        if picture.shape[2] == 4:
+            picture[..., 3] = 1
+        return picture
+
+
+class Session:
+    def __init__(self, scene):
+        if behaviour.refuse:
+            raise Error(behaviour.refuse)
+        self.settings = scene.settings
+        self.cancelled_at = None
+        self.finished_at = None
+        self._cancel, self._done = threading.Event(), threading.Event()
+        self._samples = 0
+        self._phase = "build"
+        self._start = time.monotonic()
+        self._thread = threading.Thread(target=self._render, daemon=True)
+        sessions.append(self)
+
+    def start(self):
+        self._thread.start()
+
+    def wait(self, seconds):
+        return self._done.wait(seconds)
+
+    def cancel(self):
+        if self.cancelled_at is None:
+            self.cancelled_at = time.monotonic()
+        self._cancel.set()
+
+    def progress(self):
+        total = self.settings["samples"]
+        elapsed = time.monotonic() - self._start
+        return {"phase": self._phase, "fraction": self._samples / total, "samples": self._samples,
+                "total_samples": total, "elapsed": elapsed, "remaining": 43.0, "memory_bytes": 512 << 20,
+                "message": behaviour.fail if self._phase == "failed" else "", "revision": self._samples}
+
+    def frame(self):
+        if self._samples == 0:
+            return None
+        whole = self.settings["width"], self.settings["height"]
+        crop = tuple(self.settings.get("crop", (0, 0, 0, 0)))
+        return Frame(crop[2:] if crop[2] and not behaviour.whole_frame else whole, self._samples)
+
+    def warnings(self):
+        return list(behaviour.warnings)
+
+    def stats(self):
+        return {"samples": self._samples, "seconds": time.monotonic() - self._start}
+
+    def _render(self):
+        self._cancel.wait(behaviour.build_seconds)
+        self._phase = "render"
+        while self._samples < self.settings["samples"] and not self._cancel.is_set() and not behaviour.fail:
+            self._cancel.wait(behaviour.sample_seconds)
+            self._samples += 1
+            if behaviour.on_sample:
+                behaviour.on_sample(self)
+        self._phase = "failed" if behaviour.fail else "cancelled" if self._cancel.is_set() else "done"
+        self.finished_at = time.monotonic()
+        self._done.set()
+
+
+reset()
