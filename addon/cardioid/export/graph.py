@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from . import nodes, sockets
+from . import conversions, nodes, sockets
 from .image import Images
 
 
@@ -68,31 +68,39 @@ class GraphWalk:
 
     def _resolve(self, target: Any, place: _Place) -> Any:
         """What arrives at the input `target`: a link dictionary, a value, or None."""
-        socket, seen = target, set()
+        socket, seen, passed = target, set(), []
         while True:
             key = (id(place), socket.as_pointer())
             link = place.incoming.get(key[1])
             if link is None:
-                return self._value(socket, target)
+                return self._value(self._unlinked(socket), passed, target)
             if key in seen:
                 self._warn(f"{self._owner}: a loop of links is ignored")
-                return sockets.own_value(target)
+                return self._value(sockets.own_value(target), [], target)
             seen.add(key)
             step = self._step(link.from_node, link.from_socket, place)
             if step is None:
-                return self._value(target, target)
+                return self._value(sockets.own_value(target), [], target)
             if isinstance(step, dict):
-                return step
+                return conversions.along(step, passed[::-1], self._append)
             if isinstance(step, str):
-                return sockets.convert(sockets.zero(step), step, target.type)
+                return self._value(sockets.zero(step), [*passed, step], target)
             socket, place = step
+            passed.append(socket.type)
 
-    def _value(self, socket: Any, target: Any) -> Any:
+    @staticmethod
+    def _unlinked(socket: Any) -> Any:
+        return sockets.zero(socket.type) if socket.node.type == "REROUTE" else sockets.own_value(socket)
+
+    @staticmethod
+    def _value(value: Any, passed: list[str], target: Any) -> Any:
+        """A constant from the far end of `passed` (target side first), as `target` sees it."""
         if target.hide_value:
             return None  # unlinked normals and texture vectors: the engine has its own default
-        if socket.node.type == "REROUTE":
-            return sockets.convert(sockets.zero(socket.type), socket.type, target.type)
-        return sockets.convert(sockets.own_value(socket), socket.type, target.type)
+        kinds = [*passed[::-1], target.type]
+        for source, kind in zip(kinds, kinds[1:]):
+            value = sockets.convert(value, source, kind)
+        return value
 
     def _step(self, node: Any, output: Any, place: _Place) -> Any:
         """Backwards through one node: (input, place) to go on from, a link, a socket type (zero), or None (no link)."""
@@ -101,7 +109,7 @@ class GraphWalk:
         if node.mute:
             inner = next((i for i in node.internal_links if i.to_socket == output), None)
             return (inner.from_socket, place) if inner else None
-        if node.type == "GROUP":
+        if node.type in ("GROUP", "CUSTOM GROUP"):
             return self._into_group(node, output, place)
         if node.type == "GROUP_INPUT":
             return self._out_of_group(output, place)
@@ -143,10 +151,14 @@ class GraphWalk:
         key = (id(place), node.as_pointer())
         if key not in self._index:
             self._index[key] = len(self._nodes)
-            self._nodes.append({"name": node.label or node.name, "type": node.bl_idname,
-                                "params": nodes.params(node, self._images), "inputs": {}})
+            self._append({"name": node.label or node.name, "type": node.bl_idname,
+                          "params": nodes.params(node, self._images), "inputs": {}})
             self._open.append((self._index[key], node, place))
         return self._index[key]
+
+    def _append(self, node: dict[str, Any]) -> int:
+        self._nodes.append(node)
+        return len(self._nodes) - 1
 
 
 def _by_identifier(collection: Any, identifier: str) -> Any:

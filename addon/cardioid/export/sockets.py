@@ -11,6 +11,10 @@ _NUMBERS = ("VALUE", "INT", "BOOLEAN")
 Value = float | list[float]
 
 
+def is_number(socket_type: str) -> bool:
+    return socket_type in _NUMBERS
+
+
 def own_value(socket: Any) -> Value | None:
     """The value that the artist typed into the socket; None when it has none (shaders, text, menus)."""
     value = getattr(socket, "default_value", None)
