@@ -67,6 +67,8 @@ public:
     int next();
 
 private:
+    bool crosses(int node) const;
+
     const light::LightData& lights_;
     Vec3 origin_, inverse_;
     Float t_max_;

@@ -36,11 +36,10 @@ enum Field {
     inv_area = 19,         ///< area
     tan_half_spread = 20,  ///< area: k_no_spread without spread
     spread_factor = 21,    ///< area: attenuation is (tan_half_spread - tan) * spread_factor
-    solid_angle_limit = 22,///< area: nearer than this squared distance the rectangle is sampled by solid angle
     spot_rows = 11,        ///< 9; rows of the inverse of the linear part, z negated
     spot_cos = 20,         ///< cosine of the half cone angle
     spot_inv_blend = 21,   ///< 1 / width of the blend in cosine
-    spot_one_minus_cos = 22, ///< of a cone around `normal` that holds all the light
+    spot_one_minus_cos = 22,  ///< of a cone around `normal` that holds all the light
     sun_one_minus_cos = 11,
     sun_inv_tan_area = 12, ///< legacy sun: 1/(pi tan^2) of its half angle
 };
@@ -72,7 +71,7 @@ enum Field {
 }  // namespace node
 inline constexpr int k_node_floats = 12;
 
-/// Nodes of all trees; siblings are neighbours (2k+1, 2k+2 order of creation, not of a heap).
+/// Nodes of all trees; two siblings are neighbours in the arrays.
 struct NodeArrays {
     const float* record = nullptr;          ///< k_node_floats each
     const std::int32_t* child = nullptr;    ///< first of two children; ~emitter for a leaf

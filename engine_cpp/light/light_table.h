@@ -29,6 +29,7 @@ struct LampInput {
     scene::LightDesc desc;
     std::int32_t program = -1;
     Float3 program_estimate{1, 1, 1};
+    bool soft_falloff = false;   ///< Blender 4.1's Soft Falloff: a point or spot lamp is a disk that faces the receiver
 };
 
 /// Radiance of the world toward the direction, for n ≤ 64 unit directions (world shader evaluated by the caller).
