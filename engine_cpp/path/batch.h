@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A batch: up to 1024 camera paths that are advanced bounce by bounce by one thread. Plain arrays, the same for every lane
+// width, so that the kernels of all widths share one scratch.
+#pragma once
+
+#include "math/types.h"
+#include "nodes/run.h"
+#include "nodes/shading.h"
+#include "path/automaton.h"
+#include "trace/scene_view.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace cardioid::path {
+
+inline constexpr int k_batch = 1024;
+/// Arrays are padded so that a full-width store at the last element stays inside.
+inline constexpr int k_padded = k_batch + 64;
+
+using PathFloats = float[k_padded];
+using PathInts = std::int32_t[k_padded];
+
+/// Rays in flight, one entry per live path, stored by field.
+struct alignas(64) RayState {
+    int n = 0;
+    PathFloats origin[3], direction[3];
+    PathFloats t_min;               ///< grows when the ray passes a transparent surface
+    PathFloats throughput[3];
+    PathFloats pdf;                 ///< density of the direction for MIS; -1: delta or camera, nothing to weigh against
+    PathFloats from_normal[3];      ///< normal at the origin, zero where light from all sides counts
+    PathFloats width, spread;       ///< of the pixel's cone: width at the origin, growth per unit length
+    PathFloats min_pdf;             ///< least density so far (Filter Glossy)
+    PathInts path;                  ///< index in the batch
+    PathInts flags;                 ///< nodes::RayFlag | state << k_state_shift | bits below
+    PathInts depth;                 ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
+    PathInts transparent;           ///< transparent surfaces passed
+};
+inline constexpr int k_state_shift = 8;
+inline constexpr std::int32_t k_flag_last = 1 << 12;          ///< only emission counts at the next surface
+inline constexpr std::int32_t k_flag_background = 1 << 13;    ///< nothing but transparency since the camera
+
+/// Closest hits of RayState's rays.
+struct alignas(64) HitState {
+    PathFloats t, u, v, ng[3];
+    PathInts triangle, instance;
+    PathInts material;              ///< SceneView::material_count: missed
+};
+
+/// Vertices of one material at one bounce: the record from which direct light is evaluated once paths are built.
+struct alignas(64) VertexChunk {
+    VertexChunk* next = nullptr;
+    int n = 0, lobes = 0;
+    bool transmissive = false;      ///< some lobe sends light through
+    bsdf::Lobe* lobe = nullptr;     ///< `lobes` of them
+    Row* pick = nullptr;            ///< probability of each lobe, `lobes` rows
+    Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;
+    std::int32_t path[k_chunk];
+    std::int32_t flags[k_chunk];    ///< as RayState, of the arriving ray
+    std::int32_t depth[k_chunk];
+    std::int32_t event[k_chunk];    ///< bounces + transparent surfaces: index of the random dimensions
+};
+
+/// Shadow rays that wait for full packets.
+struct alignas(64) ShadowQueue {
+    static constexpr int capacity = 1024;
+    int n = 0;
+    PathFloats origin[3], direction[3], t_max, radiance[3];
+    PathInts path, path_class;
+};
+
+/// What a batch found, by path.
+struct alignas(64) BatchResult {
+    int n = 0;
+    PathFloats radiance[k_classes][3];
+    PathFloats alpha;               ///< share of the camera ray that something stopped
+    PathFloats depth, normal[3];    ///< at the first surface; depth 1e10 where there is none
+    PathInts x, y, sample;          ///< pixel in the frame and number of the sample
+};
+
+/// Counted facts; the sums over threads go to the statistics.
+struct Counters {
+    std::uint64_t camera_paths = 0, rays = 0, shadow_rays = 0, vertices = 0, light_samples = 0, lobes_dropped = 0;
+    void add(const Counters& o) {
+        camera_paths += o.camera_paths;
+        rays += o.rays;
+        shadow_rays += o.shadow_rays;
+        vertices += o.vertices;
+        light_samples += o.light_samples;
+        lobes_dropped += o.lobes_dropped;
+    }
+};
+
+/// Pixels [x, x+width) × [y, y+height) with samples [first_sample, first_sample+samples) each; at most k_batch paths.
+struct BatchRequest {
+    const trace::SceneView* scene = nullptr;
+    const float* filter_table = nullptr;   ///< film/pixel_filter.h: offsets in pixels by quantile
+    int x = 0, y = 0, width = 0, height = 0;
+    int first_sample = 0, samples = 1;
+    std::uint32_t seed = 0;
+};
+
+/// Fixed memory for records; when it is full, direct light is evaluated early.
+class Arena {
+public:
+    static constexpr std::size_t capacity = std::size_t{6} << 20;
+    template <class T>
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = (count * sizeof(T) + 63) & ~std::size_t{63};
+        if (used_ + bytes > capacity) return nullptr;
+        T* p = reinterpret_cast<T*>(memory_ + used_);
+        used_ += bytes;
+        return p;
+    }
+    std::size_t mark() const { return used_; }
+    void reset(std::size_t mark = 0) { used_ = mark; }
+
+private:
+    std::size_t used_ = 0;
+    alignas(64) unsigned char memory_[capacity];
+};
+
+/// All memory of one thread; nothing is allocated while tracing.
+struct alignas(64) Scratch {
+    RayState rays[2];
+    HitState hits;
+    Arena arena;
+    VertexChunk* first_chunk = nullptr;
+    VertexChunk** last_chunk = nullptr;
+    ShadowQueue shadows;
+    nodes::ShadingChunk shading;
+    nodes::SurfaceOutput surface;
+    nodes::Scratch registers;
+    PathInts order;                          ///< paths sorted by material
+    PathInts pixel_seed, sample_index;       ///< by path
+    std::int32_t* bins = nullptr;            ///< material_count + 2 counters, owned by the caller
+    Counters counters;
+    const std::atomic<bool>* cancelled = nullptr;
+};
+
+/// Traces the batch; with width 1, 8 or 16 lanes.
+using TraceBatch = void (*)(const BatchRequest&, Scratch&, BatchResult&);
+/// The kernels for this machine; `width` 0 picks the widest that it can run, otherwise that width (tests).
+TraceBatch select_trace_batch(int width = 0);
+/// Widest lanes that the processor can run: 1, 8 or 16.
+int best_width();
+
+}  // namespace cardioid::path

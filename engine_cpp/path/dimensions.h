@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Names of the random dimensions (pairs of numbers) of a path. Photons get their own base when they come.
+#pragma once
+
+#include "path/batch.h"
+#include "simd/sampler.h"
+
+namespace cardioid::CD_ISA_NS {
+
+enum CameraPair : int { pair_pixel = 0, pair_lens = 1, pair_time = 2, pairs_before_events = 4 };
+/// For every event of a path (bounce or transparent surface).
+enum EventPair : int { pair_bsdf = 0, pair_choice = 1, pair_light = 2, pair_pick = 3, pairs_per_event = 4 };
+
+inline Int event_dimension(Int event, EventPair which) {
+    return event * Int(pairs_per_event) + Int(pairs_before_events + static_cast<int>(which));
+}
+
+}  // namespace cardioid::CD_ISA_NS

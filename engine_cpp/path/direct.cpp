@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Next-event estimation for the recorded vertices. Runs when the paths of the batch are built, so that shadow rays of all
+// bounces fill whole packets.
+#include "bsdf/kernels.h"
+#include "path/tracer.h"
+
+#include <bit>
+
+namespace cardioid::CD_ISA_NS {
+
+namespace {
+
+/// All lobes of a vertex toward wi, apart by class; densities carry the choice of the lobe.
+struct BsdfEval {
+    Spectrum d{0.0f}, s{0.0f};
+    Float pdf_d = 0.0f, pdf_s = 0.0f;
+};
+
+BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness) {
+    BsdfEval sum;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        const LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
+        const Float pdf = e.pdf * load(chunk.pick[k] + i);
+        if (caustic_roughness <= 0) {
+            // Only deltas are specular, and those evaluate to 0.
+            sum.d += e.f_cos;
+            sum.pdf_d += pdf;
+            continue;
+        }
+        const Mask specular = is_specular(chunk.lobe[k], i, caustic_roughness);
+        sum.d += select(specular, Spectrum(0.0f), e.f_cos);
+        sum.s += select(specular, e.f_cos, Spectrum(0.0f));
+        sum.pdf_d += select(specular, Float(0.0f), pdf);
+        sum.pdf_s += select(specular, pdf, Float(0.0f));
+    }
+    return sum;
+}
+
+int append(float* to, int n, Float value, Mask m) { return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m); }
+
+Mask not_black(Spectrum c) { return (c.r != Float(0.0f)) | (c.g != Float(0.0f)) | (c.b != Float(0.0f)); }
+
+}  // namespace
+
+void Tracer::add_direct_light() {
+    for (const path::VertexChunk* chunk = scratch.first_chunk; chunk; chunk = chunk->next) {
+        for (int i = 0; i < chunk->n; i += W) {
+            connect(*chunk, i);
+            if (scratch.shadows.n > path::ShadowQueue::capacity - 2 * W) flush_shadows();
+        }
+    }
+    flush_shadows();
+    scratch.first_chunk = nullptr;
+    scratch.last_chunk = &scratch.first_chunk;
+    scratch.arena.reset();
+}
+
+void Tracer::connect(const path::VertexChunk& chunk, int i) {
+    const Spectrum throughput = load_rgb(chunk.throughput, i);
+    const Mask active = first_lanes(chunk.n - i) & not_black(throughput);
+    if (none(active)) return;
+    const Vec3 p = cardioid::CD_ISA_NS::load3(chunk.position, i), ng = cardioid::CD_ISA_NS::load3(chunk.normal_geometric, i);
+    const Vec3 wo = cardioid::CD_ISA_NS::load3(chunk.wo, i), n = cardioid::CD_ISA_NS::load3(chunk.normal, i);
+    // Masked lanes may hold garbage indices from the list's padding.
+    const Int path = select(active, load(chunk.path + i), Int(0));
+    const Int event = load(chunk.event + i), depth = load(chunk.depth + i);
+    const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
+    const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_light));
+    const Vec2 pick = sample_pair(seed, index, event_dimension(event, pair_pick));
+    const LightReceiver at{p, chunk.transmissive ? Vec3{0.0f, 0.0f, 0.0f} : n};
+    const LightSample light = sample_light(*scene.lights, at, {pick.x, u.x, u.y}, active);
+    Mask lit = active & light.valid & (light.pdf > Float(0.0f));
+    scratch.counters.light_samples += static_cast<std::uint64_t>(count(active));
+    if (none(lit)) return;
+
+    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings.caustic_roughness);
+    lit &= not_black(f.d) | not_black(f.s);
+    if (none(lit)) return;
+    Spectrum radiance = light.radiance;
+    const Mask programmed = lit & (light.program >= Int(0));
+    if (any(programmed)) {
+        ShadedPoint point;
+        point.position = select(light.infinite, light.wi, light.position);
+        point.normal_geometric = point.normal = select(light.infinite, -light.wi, light.normal);
+        point.wo = -light.wi;
+        point.instance = light.instance;
+        point.triangle = light.triangle;
+        point.u = light.barycentric_u;
+        point.v = light.barycentric_v;
+        point.depth = depth;
+        point.ray_length = light.distance;
+        const Spectrum e = shade_points(*this, nodes::Purpose::emission, light.program, point, programmed);
+        radiance = select(programmed, radiance * e, radiance);
+        lit &= not_black(radiance);
+        if (none(lit)) return;
+    }
+
+    const Spectrum arriving = throughput * radiance * (1.0f / max(light.pdf, 1e-37f));
+    const Int bounce = byte_of(depth, 0), state = state_of(load(chunk.flags + i));
+    const float clamp_direct = scene.settings.clamp_direct, clamp_indirect = scene.settings.clamp_indirect;
+    const Vec3 origin = offset_origin(p, ng, light.wi, load(chunk.distance + i));
+    const Float reach = max(max(abs(light.position.x), abs(light.position.y)), max(abs(light.position.z), light.distance));
+    const Float t_max = select(light.infinite, Float(1e30f), light.distance - reach * 1e-5f);
+    path::ShadowQueue& q = scratch.shadows;
+    const auto queue = [&](Spectrum f_cos, Float pdf, Int after, Mask m) {
+        const Float weight = select(light.delta, Float(1.0f), power_heuristic(light.pdf, pdf));
+        const Spectrum c = clamp_contribution(arriving * f_cos * weight, bounce, clamp_direct, clamp_indirect);
+        m &= not_black(c);
+        const Mask shadowed = m & light.casts_shadow;
+        const int at_n = q.n;
+        append(q.origin[0], at_n, origin.x, shadowed);
+        append(q.origin[1], at_n, origin.y, shadowed);
+        append(q.origin[2], at_n, origin.z, shadowed);
+        append(q.direction[0], at_n, light.wi.x, shadowed);
+        append(q.direction[1], at_n, light.wi.y, shadowed);
+        append(q.direction[2], at_n, light.wi.z, shadowed);
+        append(q.t_max, at_n, t_max, shadowed);
+        append(q.radiance[0], at_n, c.r, shadowed);
+        append(q.radiance[1], at_n, c.g, shadowed);
+        append(q.radiance[2], at_n, c.b, shadowed);
+        compress_store(q.path + at_n, path, shadowed);
+        q.n += compress_store(q.path_class + at_n, after, shadowed);
+        for (std::uint32_t b = bits(m & ~light.casts_shadow); b != 0; b &= b - 1) {
+            const int k = std::countr_zero(b);
+            auto& sums = result.radiance[after[k]];
+            sums[0][path[k]] += c.r[k];
+            sums[1][path[k]] += c.g[k];
+            sums[2][path[k]] += c.b[k];
+        }
+    };
+    queue(f.d, f.pdf_d, step_state(state, mask_of(false)), lit & not_black(f.d));
+    // Rough specular lobes are connected only while every vertex before was specular: after a D that is a caustic.
+    const Mask rough_specular = lit & not_black(f.s) & (state == Int(static_cast<int>(path::State::specular)));
+    if (any(rough_specular)) queue(f.s, f.pdf_s, Int(static_cast<int>(path::State::specular)), rough_specular);
+}
+
+void Tracer::flush_shadows() {
+    path::ShadowQueue& q = scratch.shadows;
+    scratch.counters.shadow_rays += static_cast<std::uint64_t>(q.n);
+    for (int i = 0; i < q.n; i += W) {
+        const Mask lanes = first_lanes(q.n - i);
+        RayLanes ray;
+        ray.o = load3(q.origin, i);
+        ray.d = load3(q.direction, i);
+        ray.t_min = 0.0f;
+        ray.t_max = load(q.t_max + i);
+        ray.time = 0.0f;
+        ray.mask = Int(trace::mask_shadow_opaque);
+        Mask visible = lanes & ~occluded(scene.embree, ray, lanes);
+        Spectrum c{load(q.radiance[0] + i), load(q.radiance[1] + i), load(q.radiance[2] + i)};
+        if (scene.has_transparent_shadows && any(visible)) c *= through_transparent(ray, visible);
+        const Int path = load(q.path + i), path_class = load(q.path_class + i);
+        for (std::uint32_t b = bits(visible); b != 0; b &= b - 1) {
+            const int k = std::countr_zero(b);
+            auto& sums = result.radiance[path_class[k]];
+            sums[0][path[k]] += c.r[k];
+            sums[1][path[k]] += c.g[k];
+            sums[2][path[k]] += c.b[k];
+        }
+    }
+    q.n = 0;
+}
+
+Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible) {
+    Spectrum passed(1.0f);
+    ray.mask = Int(trace::mask_shadow_transparent);
+    Mask active = visible;
+    // One more than the limit: the surface beyond it blocks, as in Cycles.
+    for (int layer = 0; layer <= scene.settings.max_transparent_bounces; ++layer) {
+        const HitLanes h = intersect(scene.embree, ray, active, false);
+        active &= h.hit;
+        if (none(active)) return passed;
+        scratch.counters.shadow_rays += static_cast<std::uint64_t>(count(active));
+        const Int instance = select(h.hit, h.instance, Int(0)), triangle = select(h.hit, h.triangle, Int(0));
+        const SurfaceNormals normals = surface_normals(scene, instance, triangle, h.ng, h.u, h.v, -ray.d);
+        ShadedPoint point;
+        point.position = ray.o + ray.d * h.t;
+        point.normal_geometric = normals.ng;
+        point.normal = normals.n;
+        point.wo = -ray.d;
+        point.instance = instance;
+        point.triangle = triangle;
+        point.u = h.u;
+        point.v = h.v;
+        point.flags = Int(nodes::ray_shadow);
+        point.ray_length = h.t;
+        point.backfacing = select(normals.backfacing, Float(1.0f), Float(0.0f));
+        const Spectrum t = shade_points(*this, nodes::Purpose::transparency, material_of(scene, instance, triangle), point, active);
+        passed = select(active, passed * t, passed);
+        const Mask black = active & ~not_black(passed);
+        visible &= ~black;
+        active &= ~black;
+        const Float reach = max(max(abs(point.position.x), abs(point.position.y)), max(abs(point.position.z), h.t));
+        ray.t_min = h.t + reach * 4e-6f;
+        active &= ray.t_min < ray.t_max;
+    }
+    visible &= ~active;
+    return passed;
+}
+
+}  // namespace cardioid::CD_ISA_NS

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Light that rays found by themselves: emissive surfaces, lamps on the way, the world. MIS against next-event estimation.
+#include "path/tracer.h"
+
+#include <bit>
+
+namespace cardioid::CD_ISA_NS {
+
+namespace {
+/// Weight of a hit whose direction had density `pdf` (-1: nothing to weigh against), found by light sampling with `light_pdf`.
+Float hit_weight(Float pdf, Float light_pdf) {
+    return select(pdf < Float(0.0f), Float(1.0f), power_heuristic(pdf, light_pdf));
+}
+}  // namespace
+
+void Tracer::deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit) {
+    const path::RayState& rays = *now;
+    const Vec3 tp = load3(rays.throughput, ray);
+    Spectrum c = Spectrum{tp.x, tp.y, tp.z} * radiance;
+    // Light found by a hit belongs to the bounce before it.
+    const Int bounce = byte_of(gather(rays.depth, ray), 0) - Int(emission_hit ? 1 : 0);
+    c = clamp_contribution(c, bounce, scene.settings.clamp_direct, scene.settings.clamp_indirect);
+    const Int path = gather(rays.path, ray), state = state_of(gather(rays.flags, ray));
+    for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
+        const int k = std::countr_zero(b);
+        auto& sums = result.radiance[state[k]];
+        const int p = path[k];
+        sums[0][p] += c.r[k];
+        sums[1][p] += c.g[k];
+        sums[2][p] += c.b[k];
+    }
+}
+
+void Tracer::add_surface_emission(int material, const std::int32_t* list) {
+    const trace::MaterialView& m = scene.materials[material];
+    const nodes::ShadingChunk& s = scratch.shading;
+    const path::RayState& rays = *now;
+    for (int i = 0; i < s.n; i += W) {
+        const Mask lanes = first_lanes(s.n - i);
+        const Spectrum e = load_rgb(scratch.surface.emission, i);
+        const Mask shines = lanes & ((e.r != Float(0.0f)) | (e.g != Float(0.0f)) | (e.b != Float(0.0f)));
+        if (none(shines)) continue;
+        const Int ray = load(list + i);
+        const Float pdf = gather(rays.pdf, ray);
+        Float weight = 1.0f;
+        const Mask weigh = shines & (pdf >= Float(0.0f));
+        if (m.emission_sampled && any(weigh)) {
+            const LightReceiver from{load3(rays.origin, ray), load3(rays.from_normal, ray)};
+            const Float light_pdf = pdf_triangle(*scene.lights, from, load(s.instance + i), load(s.triangle + i),
+                                                 cardioid::CD_ISA_NS::load3(s.position, i),
+                                                 cardioid::CD_ISA_NS::load3(s.normal_geometric, i), weigh);
+            weight = select(weigh, hit_weight(pdf, light_pdf), Float(1.0f));
+        }
+        deposit(ray, e * weight, shines, true);
+    }
+}
+
+void Tracer::add_lamp_hits() {
+    const int lamps = scene.has_lights ? hittable_lamps(*scene.lights) : 0;
+    if (lamps == 0) return;
+    const path::RayState& rays = *now;
+    for (int i = 0; i < rays.n; i += W) {
+        const Mask lanes = first_lanes(rays.n - i);
+        const Int ray = Int(i) + lane_index();
+        const LightReceiver from{load3(rays.origin, i), load3(rays.from_normal, i)};
+        const Vec3 d = load3(rays.direction, i);
+        const Float t_max = load(scratch.hits.t + i), t_min = load(rays.t_min + i), pdf = load(rays.pdf + i);
+        const Int seen_by = visibility_bit(load(rays.flags + i));
+        for (int which = 0; which < lamps; ++which) {
+            const LampHit h = intersect_lamp(*scene.lights, which, from, d, t_max, lanes);
+            // A ray that passed a transparent surface keeps its origin: lamps before t_min were found already.
+            const Mask hit = h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0));
+            if (none(hit)) continue;
+            Spectrum radiance = h.radiance;
+            if (h.program >= 0) {
+                ShadedPoint at;
+                at.position = h.position;
+                at.normal_geometric = at.normal = h.normal;
+                at.wo = -d;
+                at.depth = load(rays.depth + i);
+                radiance *= shade_points(*this, nodes::Purpose::emission, Int(h.program), at, hit);
+            }
+            deposit(ray, radiance * hit_weight(pdf, h.pdf), hit, true);
+        }
+    }
+}
+
+void Tracer::add_world(const std::int32_t* list, int n) {
+    const path::RayState& rays = *now;
+    const bool film_hides_world = scene.settings.transparent_film;
+    for (int i = 0; i < n; i += W) {
+        const Mask lanes = first_lanes(n - i);
+        const Int ray = load(list + i);
+        const Int flags = gather(rays.flags, ray);
+        const Mask background = lanes & ((flags & Int(path::k_flag_background)) != Int(0));
+        Mask shines = lanes;
+        if (film_hides_world) {
+            const Vec3 tp = load3(rays.throughput, ray);
+            const Float through = average(Spectrum{tp.x, tp.y, tp.z});
+            const Int path = gather(rays.path, ray);
+            for (std::uint32_t b = bits(background); b != 0; b &= b - 1) {
+                const int k = std::countr_zero(b);
+                result.alpha[path[k]] -= through[k];
+            }
+            shines &= ~background;
+        }
+        if (!scene.has_world) continue;
+        shines &= (visibility_bit(flags) & Int(scene.world_visibility)) != Int(0);
+        shines &= byte_of(gather(rays.depth, ray), 0) <= Int(scene.world_max_bounces);
+        if (none(shines)) continue;
+        const Vec3 d = load3(rays.direction, ray);
+        Spectrum radiance{scene.world_constant.x, scene.world_constant.y, scene.world_constant.z};
+        if (!scene.materials[scene.world_program].info.constant_emission) {
+            ShadedPoint at;
+            at.position = d;
+            at.normal_geometric = at.normal = at.wo = -d;
+            at.depth = gather(rays.depth, ray);
+            at.flags = flags & Int(0xff);
+            radiance = shade_points(*this, nodes::Purpose::emission, Int(scene.world_program), at, shines);
+        }
+        const Float pdf = gather(rays.pdf, ray);
+        const Mask weigh = shines & (pdf >= Float(0.0f));
+        Float weight = 1.0f;
+        if (any(weigh)) {
+            const LightReceiver from{load3(rays.origin, ray), load3(rays.from_normal, ray)};
+            weight = select(weigh, hit_weight(pdf, pdf_environment(*scene.lights, from, d, weigh)), Float(1.0f));
+        }
+        deposit(ray, radiance * weight, shines, true);
+    }
+}
+
+}  // namespace cardioid::CD_ISA_NS

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "path/tracer.h"
+
+namespace cardioid::CD_ISA_NS {
+
+void Tracer::find_hits(bool coherent) {
+    path::RayState& rays = *now;
+    path::HitState& hits = scratch.hits;
+    scratch.counters.rays += static_cast<std::uint64_t>(rays.n);
+    const Int missed(scene.material_count);
+    for (int i = 0; i < rays.n; i += W) {
+        const Mask active = first_lanes(rays.n - i);
+        RayLanes ray;
+        ray.o = load3(rays.origin, i);
+        ray.d = load3(rays.direction, i);
+        ray.t_min = load(rays.t_min + i);
+        ray.t_max = coherent ? load(hits.t + i) : Float(1e30f);
+        ray.time = 0.0f;
+        ray.mask = visibility_bit(load(rays.flags + i));
+        const HitLanes h = intersect(scene.embree, ray, active, coherent);
+        const Int instance = select(h.hit, h.instance, Int(0));
+        const Int triangle = select(h.hit, h.triangle, Int(0));
+        store(hits.t + i, select(h.hit, h.t, Float(1e30f)));
+        store(hits.u + i, h.u);
+        store(hits.v + i, h.v);
+        store3(hits.ng, i, h.ng);
+        store(hits.instance + i, instance);
+        store(hits.triangle + i, triangle);
+        store(hits.material + i, select(h.hit, material_of(scene, instance, triangle), missed));
+    }
+}
+
+void Tracer::sort_by_material() {
+    const int bins = scene.material_count + 1;
+    std::int32_t* end = scratch.bins;
+    for (int b = 0; b <= bins; ++b) end[b] = 0;
+    const int n = now->n;
+    const std::int32_t* material = scratch.hits.material;
+    for (int i = 0; i < n; ++i) ++end[material[i] + 1];
+    for (int b = 1; b <= bins; ++b) end[b] += end[b - 1];
+    for (int i = 0; i < n; ++i) scratch.order[end[material[i]]++] = i;
+}
+
+}  // namespace cardioid::CD_ISA_NS

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one place that chooses the lane width for this processor.
+#include "path/batch.h"
+
+namespace cardioid {
+namespace isa_w1 {
+void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
+}
+namespace isa_w8 {
+void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
+}
+namespace isa_w16 {
+void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
+}
+
+namespace path {
+
+int best_width() {
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512bw")) {
+        return 16;
+    }
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) return 8;
+    return 1;
+}
+
+TraceBatch select_trace_batch(int width) {
+    const int best = best_width();
+    if (width == 0 || width > best) width = best;
+    if (width == 16) return isa_w16::trace_batch;
+    return width == 8 ? isa_w8::trace_batch : isa_w1::trace_batch;
+}
+
+}  // namespace path
+}  // namespace cardioid

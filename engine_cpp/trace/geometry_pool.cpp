@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trace/geometry_pool.h"
+
+#include "nodes/compile.h"
+#include "trace/octahedral.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace cardioid::trace {
+
+namespace {
+/// Groups may nest; validation refuses loops, this bound only keeps a bug from hanging.
+constexpr int k_max_group_depth = 64;
+
+const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const std::string& name) {
+    const std::string* wanted = &name;
+    if (name == nodes::k_active_uv) wanted = &mesh.active_uv;
+    if (name == nodes::k_active_color) wanted = &mesh.active_color;
+    for (const auto& a : mesh.attributes) {
+        if (a.name == *wanted) return &a;
+    }
+    return nullptr;
+}
+}  // namespace
+
+GeometryPool::GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names, int default_material) {
+    flatten(desc);
+    copy_meshes(desc);
+    copy_attributes(desc, attribute_names);
+    make_instances(desc, default_material);
+}
+
+void GeometryPool::flatten(const scene::SceneDesc& desc) {
+    placed_.reserve(desc.instances.size());
+    for (const auto& i : desc.instances) place(desc, i, Affine{}, scene::visible_all, 0);
+}
+
+void GeometryPool::place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent,
+                         std::uint8_t visibility, int depth) {
+    const Affine transform = depth == 0 ? instance.transform : parent * instance.transform;
+    const auto visible = static_cast<std::uint8_t>(visibility & instance.visibility);
+    if (instance.mesh >= 0) {
+        if (!desc.meshes[instance.mesh].triangles.empty()) placed_.push_back({&instance, transform, visible});
+        return;
+    }
+    if (instance.group < 0 || depth >= k_max_group_depth) return;
+    for (const auto& child : desc.groups[instance.group].instances) place(desc, child, transform, visible, depth + 1);
+}
+
+void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
+    std::vector<const PlacedMesh*> only_user(desc.meshes.size(), nullptr);
+    std::vector<int> users(desc.meshes.size(), 0);
+    for (const auto& p : placed_) {
+        ++users[p.desc->mesh];
+        only_user[p.desc->mesh] = &p;
+    }
+    ranges_.resize(desc.meshes.size());
+    std::size_t vertices = 0, triangles = 0;
+    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+        MeshRange& r = ranges_[m];
+        const auto& mesh = desc.meshes[m];
+        r.used = users[m] > 0;
+        if (!r.used) continue;
+        r.baked = users[m] == 1;
+        r.smooth = !mesh.corner_normals.empty();
+        r.multi_material = std::any_of(mesh.slots.begin(), mesh.slots.end(), [](int s) { return s != 0; });
+        r.first_vertex = static_cast<std::uint32_t>(vertices);
+        r.first_triangle = static_cast<std::uint32_t>(triangles);
+        r.vertices = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+        r.triangles = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+        vertices += r.vertices;
+        triangles += r.triangles;
+    }
+    // Embree reads up to 4 bytes past the last vertex; gathers of masked lanes need at least one element.
+    positions_.assign(3 * vertices + 4, 0.0f);
+    triangles_.assign(3 * triangles + 3, 0);
+    const bool any_smooth = std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.smooth; });
+    packed_normals_.assign(any_smooth ? 3 * triangles + 3 : 3, 0);
+    const bool any_slots = std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.multi_material; });
+    slots_.assign(any_slots ? triangles + 1 : 1, 0);
+    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+        const MeshRange& r = ranges_[m];
+        if (!r.used) continue;
+        const auto& mesh = desc.meshes[m];
+        std::memcpy(triangles_.data() + 3 * std::size_t{r.first_triangle}, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t));
+        float* out = positions_.data() + 3 * std::size_t{r.first_vertex};
+        std::memcpy(out, mesh.positions.data(), mesh.positions.size() * sizeof(float));
+        Affine normal_map;
+        if (r.baked) {
+            const Affine& t = only_user[m]->transform;
+            normal_map = inverse(t);
+            for (std::uint32_t i = 0; i < r.vertices; ++i) {
+                const Float3 p = t.point({out[3 * i], out[3 * i + 1], out[3 * i + 2]});
+                out[3 * i] = p.x;
+                out[3 * i + 1] = p.y;
+                out[3 * i + 2] = p.z;
+            }
+        }
+        if (r.smooth) {
+            std::uint32_t* packed = packed_normals_.data() + 3 * std::size_t{r.first_triangle};
+            for (std::size_t c = 0; c < 3 * std::size_t{r.triangles}; ++c) {
+                const float* n = mesh.corner_normals.data() + 3 * c;
+                packed[c] = pack_normal(r.baked ? normal_map.transposed_vector({n[0], n[1], n[2]}) : Float3{n[0], n[1], n[2]});
+            }
+        }
+        if (r.multi_material) std::copy(mesh.slots.begin(), mesh.slots.end(), slots_.begin() + r.first_triangle);
+    }
+}
+
+void GeometryPool::copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names) {
+    attribute_names_ = static_cast<int>(names.size());
+    attributes_.assign(std::max<std::size_t>(1, desc.meshes.size() * names.size()), {});
+    floats_.assign(4, 0.0f);
+    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+        if (!ranges_[m].used) continue;
+        for (std::size_t a = 0; a < names.size(); ++a) {
+            const scene::AttributeDesc* found = find_attribute(desc.meshes[m], names[a]);
+            if (!found) continue;
+            nodes::AttributeRef& ref = attributes_[m * names.size() + a];
+            ref.offset = static_cast<std::uint32_t>(floats_.size());
+            ref.domain = static_cast<std::uint8_t>(found->domain);
+            ref.channels = static_cast<std::uint8_t>(found->channels);
+            floats_.insert(floats_.end(), found->data.begin(), found->data.end());
+        }
+    }
+    mesh_infos_.resize(std::max<std::size_t>(1, desc.meshes.size()));
+    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+        mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, desc.meshes[m].generated_min, desc.meshes[m].generated_size};
+    }
+}
+
+void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_material) {
+    for (const PlacedMesh& p : placed_) {
+        const int m = p.desc->mesh;
+        const MeshRange& r = ranges_[m];
+        nodes::InstanceInfo info;
+        info.object_to_world = p.transform;
+        info.world_to_object = inverse(p.transform);
+        info.mesh = m;
+        info.random = p.desc->random;
+        info.pass_index = static_cast<float>(p.desc->pass_index);
+        std::copy(p.desc->color.begin(), p.desc->color.end(), info.color);
+        info.location = p.transform.translation();
+        info.dupli_generated = p.desc->dupli_generated;
+        info.dupli_uv[0] = p.desc->dupli_uv[0];
+        info.dupli_uv[1] = p.desc->dupli_uv[1];
+        infos_.push_back(info);
+        mesh_.push_back(m);
+        first_triangle_.push_back(static_cast<std::int32_t>(r.first_triangle));
+        first_vertex_.push_back(static_cast<std::int32_t>(r.first_vertex));
+        smooth_.push_back(r.smooth);
+        baked_.push_back(r.baked);
+        flip_.push_back(r.baked && p.transform.determinant() < 0);
+        slot_mask_.push_back(r.multi_material ? -1 : 0);
+        first_material_.push_back(static_cast<std::int32_t>(slot_materials_.size()));
+        holdout_.push_back(p.desc->holdout);
+        any_holdout_ = any_holdout_ || p.desc->holdout;
+        const auto& slots = desc.meshes[m].slots;
+        const int slot_count = slots.empty() ? 1 : *std::max_element(slots.begin(), slots.end()) + 1;
+        for (int s = 0; s < slot_count; ++s) {
+            // A slot beyond the list takes the last material, as Blender does.
+            const auto& list = p.desc->materials;
+            const int id = list.empty() ? -1 : list[std::min<std::size_t>(s, list.size() - 1)];
+            slot_materials_.push_back(id < 0 ? default_material : id);
+        }
+    }
+    if (infos_.empty()) {
+        infos_.emplace_back();
+        for (auto* v : {&mesh_, &first_triangle_, &first_vertex_, &smooth_, &baked_, &flip_, &slot_mask_, &first_material_, &holdout_}) v->push_back(0);
+        slot_materials_.push_back(default_material);
+    }
+}
+
+int GeometryPool::material(int instance, std::uint32_t triangle) const {
+    const std::int32_t mask = slot_mask_[instance];
+    const std::int32_t slot = mask != 0 ? slots_[first_triangle_[instance] + triangle] : 0;
+    return slot_materials_[first_material_[instance] + slot];
+}
+
+std::vector<int> GeometryPool::materials_of(int instance) const {
+    const MeshRange& r = ranges_[mesh_[instance]];
+    std::vector<int> ids;
+    if (!r.multi_material) {
+        ids.push_back(slot_materials_[first_material_[instance]]);
+        return ids;
+    }
+    std::vector<bool> seen;
+    for (std::uint32_t t = 0; t < r.triangles; ++t) {
+        const auto slot = static_cast<std::size_t>(slots_[r.first_triangle + t]);
+        if (slot >= seen.size()) seen.resize(slot + 1, false);
+        if (!seen[slot]) {
+            seen[slot] = true;
+            ids.push_back(slot_materials_[first_material_[instance] + static_cast<int>(slot)]);
+        }
+    }
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+}
+
+void GeometryPool::world_triangle(int instance, std::uint32_t triangle, Float3 corner[3]) const {
+    const int mesh = mesh_[instance];
+    const std::uint32_t* t = triangles(mesh) + 3 * std::size_t{triangle};
+    for (int k = 0; k < 3; ++k) {
+        const float* p = positions(mesh) + 3 * std::size_t{t[k]};
+        corner[k] = {p[0], p[1], p[2]};
+        if (!baked(instance)) corner[k] = infos_[instance].object_to_world.point(corner[k]);
+    }
+}
+
+void GeometryPool::fill(SceneView& view) const {
+    nodes::GeometryTables& g = view.geometry;
+    g.triangles = triangles_.data();
+    g.positions = positions_.data();
+    g.floats = floats_.data();
+    g.attributes = attributes_.data();
+    g.attribute_names = attribute_names_;
+    g.instances = infos_.data();
+    g.meshes = mesh_infos_.data();
+    view.instances = {mesh_.data(), first_triangle_.data(), first_vertex_.data(), smooth_.data(), baked_.data(), flip_.data(),
+                      slot_mask_.data(), first_material_.data(), holdout_.data()};
+    view.packed_normals = packed_normals_.data();
+    view.slots = slots_.data();
+    view.slot_materials = slot_materials_.data();
+    view.any_holdout = any_holdout_;
+}
+
+std::int64_t GeometryPool::memory_bytes() const {
+    return static_cast<std::int64_t>(positions_.capacity() * 4 + triangles_.capacity() * 4 + packed_normals_.capacity() * 4 +
+                                     slots_.capacity() * 4 + floats_.capacity() * 4 + infos_.capacity() * sizeof(nodes::InstanceInfo) +
+                                     mesh_.capacity() * 9 * 4 + slot_materials_.capacity() * 4);
+}
+
+}  // namespace cardioid::trace

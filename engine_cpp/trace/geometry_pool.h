@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All meshes and placed instances in flat arrays, as GeometryTables and InstanceArrays want them. Groups are flattened here;
+// a mesh that is placed once is stored in world space, which saves every ray an instance transform.
+#pragma once
+
+#include "scene/scene_desc.h"
+#include "trace/scene_view.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cardioid::trace {
+
+struct PlacedMesh {
+    const scene::InstanceDesc* desc = nullptr;
+    Affine transform;
+    std::uint8_t visibility = scene::visible_all;
+};
+
+class GeometryPool {
+public:
+    /// `default_material`: id for empty slots. `attribute_names`: those that programs read, by name id.
+    GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names, int default_material);
+
+    void fill(SceneView& view) const;
+    std::int64_t memory_bytes() const;
+
+    struct MeshRange {
+        std::uint32_t first_triangle = 0, triangles = 0, first_vertex = 0, vertices = 0;
+        bool used = false, baked = false, smooth = false;
+        bool multi_material = false;
+    };
+    const std::vector<MeshRange>& meshes() const { return ranges_; }
+    const std::vector<PlacedMesh>& placed() const { return placed_; }
+    const float* positions(int mesh) const { return positions_.data() + 3 * std::size_t{ranges_[mesh].first_vertex}; }
+    const std::uint32_t* triangles(int mesh) const { return triangles_.data() + 3 * std::size_t{ranges_[mesh].first_triangle}; }
+    bool baked(int instance) const { return baked_[instance] != 0; }
+    /// Material id of a triangle of an instance.
+    int material(int instance, std::uint32_t triangle) const;
+    /// Materials that the instance's mesh really uses, without repeats.
+    std::vector<int> materials_of(int instance) const;
+    /// Corners of a triangle in world space.
+    void world_triangle(int instance, std::uint32_t triangle, Float3 corner[3]) const;
+
+private:
+    void flatten(const scene::SceneDesc& desc);
+    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent, std::uint8_t visibility, int depth);
+    void copy_meshes(const scene::SceneDesc& desc);
+    void copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names);
+    void make_instances(const scene::SceneDesc& desc, int default_material);
+
+    std::vector<PlacedMesh> placed_;
+    std::vector<MeshRange> ranges_;
+    std::vector<float> positions_;
+    std::vector<std::uint32_t> triangles_;
+    std::vector<std::uint32_t> packed_normals_;
+    std::vector<std::int32_t> slots_;
+    std::vector<std::int32_t> slot_materials_;
+    std::vector<float> floats_;
+    std::vector<nodes::AttributeRef> attributes_;
+    std::vector<nodes::InstanceInfo> infos_;
+    std::vector<nodes::MeshInfo> mesh_infos_;
+    std::vector<std::int32_t> mesh_, first_triangle_, first_vertex_, smooth_, baked_, flip_, slot_mask_, first_material_, holdout_;
+    int attribute_names_ = 0;
+    bool any_holdout_ = false;
+};
+
+}  // namespace cardioid::trace

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "trace/traceable_scene.h"
+
+#include "image/image_store.h"
+#include "light/light_table.h"
+#include "nodes/compile.h"
+#include "nodes/run.h"
+#include "trace/embree_scene.h"
+#include "trace/geometry_pool.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace cardioid::trace {
+
+namespace {
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point start_;
+};
+
+bool is_black(Float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+void scene_bounds(const GeometryPool& pool, Float3& lo, Float3& hi) {
+    lo = {1e30f, 1e30f, 1e30f};
+    hi = {-1e30f, -1e30f, -1e30f};
+    const auto& placed = pool.placed();
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const auto& range = pool.meshes()[placed[i].desc->mesh];
+        const float* p = pool.positions(placed[i].desc->mesh);
+        Float3 a{1e30f, 1e30f, 1e30f}, b{-1e30f, -1e30f, -1e30f};
+        for (std::uint32_t v = 0; v < range.vertices; ++v) {
+            a = {std::min(a.x, p[3 * v]), std::min(a.y, p[3 * v + 1]), std::min(a.z, p[3 * v + 2])};
+            b = {std::max(b.x, p[3 * v]), std::max(b.y, p[3 * v + 1]), std::max(b.z, p[3 * v + 2])};
+        }
+        for (int corner = 0; corner < 8; ++corner) {
+            Float3 c{corner & 1 ? a.x : b.x, corner & 2 ? a.y : b.y, corner & 4 ? a.z : b.z};
+            if (!range.baked) c = placed[i].transform.point(c);
+            lo = {std::min(lo.x, c.x), std::min(lo.y, c.y), std::min(lo.z, c.z)};
+            hi = {std::max(hi.x, c.x), std::max(hi.y, c.y), std::max(hi.z, c.z)};
+        }
+    }
+    if (lo.x > hi.x) lo = hi = {0, 0, 0};
+}
+
+}  // namespace
+
+struct TraceableScene::Impl {
+    SceneView view;
+    BuildStats stats;
+    nodes::Warnings warnings;
+    std::vector<std::string> attribute_names;
+    std::unique_ptr<image::ImageStore> images;
+    std::vector<nodes::CompiledGraph> graphs;   // materials, default grey, lamps, world: SceneView::materials' ids
+    std::vector<bool> use_transparent_shadow;
+    std::vector<MaterialView> materials;
+    std::unique_ptr<GeometryPool> pool;
+    std::unique_ptr<EmbreeScene> embree;
+    std::unique_ptr<light::LightTable> lights;
+
+    void compile_graphs(const scene::SceneDesc& desc);
+    void build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress);
+    void build_lights(const scene::SceneDesc& desc);
+    std::vector<light::LampInput> lamp_inputs(const scene::SceneDesc& desc) const;
+    std::vector<light::EmissiveTriangle> emissive_triangles(const scene::SceneDesc& desc);
+    void evaluate_world(int n, const Float3* directions, Float3* radiance) const;
+    int default_material() const { return view.material_count - 1; }
+};
+
+TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress& progress) : impl_(std::make_unique<Impl>()) {
+    Impl& s = *impl_;
+    const auto stage = [&](const char* name) {
+        if (progress(name)) throw BuildCancelled{};
+    };
+    s.view.settings = desc.settings;
+    stage("Loading images");
+    {
+        const Stopwatch watch(s.stats.images_seconds);
+        s.images = std::make_unique<image::ImageStore>(desc.images, desc.settings.ocio_config, desc.settings.texture_cache_mb);
+    }
+    stage("Compiling materials");
+    {
+        const Stopwatch watch(s.stats.materials_seconds);
+        s.compile_graphs(desc);
+    }
+    stage("Preparing geometry");
+    s.build_geometry(desc, progress);
+    stage("Preparing lights");
+    {
+        const Stopwatch watch(s.stats.lights_seconds);
+        s.build_lights(desc);
+    }
+    SceneView& v = s.view;
+    if (desc.camera) v.camera.desc = *desc.camera;
+    const auto& plane = v.camera.desc.view_plane;
+    v.camera.pixel_x = (plane[1] - plane[0]) / static_cast<float>(desc.settings.width);
+    v.camera.pixel_y = (plane[3] - plane[2]) / static_cast<float>(desc.settings.height);
+    v.geometry.camera_to_world = v.camera.desc.transform;
+    v.geometry.world_to_camera = inverse(v.camera.desc.transform);
+    v.geometry.view_plane = plane;
+    v.geometry.orthographic = v.camera.desc.kind == scene::CameraKind::orthographic;
+    s.stats.image_bytes = s.images->memory_bytes();
+    s.stats.light_bytes = s.lights->memory_bytes();
+}
+
+TraceableScene::~TraceableScene() = default;
+
+const SceneView& TraceableScene::view() const { return impl_->view; }
+const BuildStats& TraceableScene::stats() const { return impl_->stats; }
+
+std::vector<std::string> TraceableScene::warnings() const {
+    std::vector<std::string> all = impl_->warnings.messages();
+    const auto& images = impl_->images->warnings();
+    all.insert(all.end(), images.begin(), images.end());
+    return all;
+}
+
+void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
+    const auto compile = [&](const std::string& name, nodes::GraphKind kind, const scene::GraphDesc& graph, Float3 fallback) {
+        nodes::CompileContext context;
+        context.name = name;
+        context.kind = kind;
+        context.attribute_names = &attribute_names;
+        context.images = images.get();
+        context.fallback_color = fallback;
+        graphs.push_back(nodes::compile(graph, context, warnings));
+    };
+    for (const auto& m : desc.materials) {
+        compile(m.name, nodes::GraphKind::material, m.graph, m.viewport_color);
+        use_transparent_shadow.push_back(m.use_transparent_shadow);
+    }
+    compile("default", nodes::GraphKind::material, {}, {0.8f, 0.8f, 0.8f});
+    use_transparent_shadow.push_back(true);
+    view.material_count = static_cast<int>(graphs.size());
+    for (const auto& l : desc.lights) compile(l.name, nodes::GraphKind::light, l.graph, {1, 1, 1});
+    view.world_program = static_cast<int>(graphs.size());
+    const scene::WorldDesc world = desc.world.value_or(scene::WorldDesc{});
+    compile(world.name, nodes::GraphKind::world, world.graph, world.color);
+
+    materials.resize(graphs.size());
+    for (std::size_t i = 0; i < graphs.size(); ++i) {
+        MaterialView& m = materials[i];
+        m.surface = &graphs[i].of(nodes::Purpose::surface);
+        m.emission = &graphs[i].of(nodes::Purpose::emission);
+        m.transparency = &graphs[i].of(nodes::Purpose::transparency);
+        m.info = graphs[i].info;
+        if (i < desc.materials.size()) {
+            m.pass_index = desc.materials[i].pass_index;
+            m.emission_sampled = desc.materials[i].sample_emission && m.info.has_emission;
+        }
+    }
+    const nodes::ProgramInfo& w = materials.back().info;
+    view.materials = materials.data();
+    view.world_visibility = world.visibility;
+    view.world_max_bounces = world.max_bounces;
+    view.world_constant = w.emission_value;
+    view.has_world = desc.world.has_value() && w.has_emission && !(w.constant_emission && is_black(w.emission_value));
+}
+
+void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress) {
+    {
+        const Stopwatch watch(stats.geometry_seconds);
+        pool = std::make_unique<GeometryPool>(desc, attribute_names, default_material());
+        pool->fill(view);
+    }
+    if (progress("Building the ray tracing tree")) throw BuildCancelled{};
+    const Stopwatch watch(stats.bvh_seconds);
+    const auto has_transparency = [&](int instance) {
+        const auto ids = pool->materials_of(instance);
+        return std::any_of(ids.begin(), ids.end(), [&](int id) { return materials[id].info.has_transparency && use_transparent_shadow[id]; });
+    };
+    const auto keep_going = [&] { return !progress("Building the ray tracing tree"); };
+    embree = std::make_unique<EmbreeScene>(*pool, desc.settings.robust_intersection, has_transparency, keep_going);
+    if (embree->cancelled()) throw BuildCancelled{};
+    view.embree = embree->top();
+    const auto& placed = pool->placed();
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        stats.triangles += pool->meshes()[placed[i].desc->mesh].triangles;
+        view.has_transparent_shadows = view.has_transparent_shadows || has_transparency(static_cast<int>(i));
+    }
+    for (const auto& r : pool->meshes()) stats.unique_triangles += r.used ? r.triangles : 0;
+    stats.instances = static_cast<std::int64_t>(placed.size());
+    stats.embree_bytes = embree->memory_bytes();
+    stats.geometry_bytes = pool->memory_bytes();
+}
+
+std::vector<light::LampInput> TraceableScene::Impl::lamp_inputs(const scene::SceneDesc& desc) const {
+    std::vector<light::LampInput> lamps;
+    for (std::size_t i = 0; i < desc.lights.size(); ++i) {
+        if (desc.lights[i].portal) continue;
+        light::LampInput lamp;
+        lamp.desc = desc.lights[i];
+        if (!lamp.desc.graph.empty()) {
+            const int id = view.material_count + static_cast<int>(i);
+            const nodes::ProgramInfo& info = materials[id].info;
+            if (info.constant_emission || !info.has_emission) {
+                lamp.desc.color = lamp.desc.color * info.emission_value;
+            } else {
+                lamp.program = id;
+                lamp.program_estimate = info.emission_estimate;
+            }
+        }
+        lamps.push_back(std::move(lamp));
+    }
+    return lamps;
+}
+
+std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(const scene::SceneDesc& desc) {
+    std::vector<light::EmissiveTriangle> list;
+    const auto& placed = pool->placed();
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const int instance = static_cast<int>(i);
+        const auto ids = pool->materials_of(instance);
+        const auto shines = [&](int id) {
+            const MaterialView& m = materials[id];
+            return m.emission_sampled && !(m.info.constant_emission && is_black(m.info.emission_value));
+        };
+        if (std::none_of(ids.begin(), ids.end(), shines)) continue;
+        const std::uint32_t count = static_cast<std::uint32_t>(desc.meshes[placed[i].desc->mesh].triangles.size() / 3);
+        for (std::uint32_t t = 0; t < count; ++t) {
+            const int id = pool->material(instance, t);
+            if (!shines(id)) continue;
+            const nodes::ProgramInfo& info = materials[id].info;
+            Float3 corner[3];
+            pool->world_triangle(instance, t, corner);
+            light::EmissiveTriangle e;
+            e.p0 = corner[0];
+            e.p1 = corner[1];
+            e.p2 = corner[2];
+            e.radiance = info.constant_emission ? info.emission_value : info.emission_estimate;
+            e.instance = instance;
+            e.triangle = static_cast<std::int32_t>(t);
+            e.program = info.constant_emission ? -1 : id;
+            list.push_back(e);
+        }
+    }
+    stats.emissive_triangles = static_cast<std::int64_t>(list.size());
+    return list;
+}
+
+void TraceableScene::Impl::evaluate_world(int n, const Float3* directions, Float3* radiance) const {
+    auto chunk = std::make_unique<nodes::ShadingChunk>();
+    auto out = std::make_unique<nodes::SurfaceOutput>();
+    auto scratch = std::make_unique<nodes::Scratch>();
+    chunk->n = n;
+    chunk->geometry = &view.geometry;
+    for (int i = 0; i < k_chunk; ++i) {
+        const Float3 d = directions[std::min(i, n - 1)];
+        const float v[3] = {d.x, d.y, d.z};
+        for (int c = 0; c < 3; ++c) {
+            chunk->position[c][i] = v[c];
+            chunk->wo[c][i] = chunk->normal[c][i] = chunk->normal_geometric[c][i] = -v[c];
+        }
+        chunk->instance[i] = -1;
+        chunk->ray_flags[i] = nodes::ray_diffuse;
+        chunk->ray_length[i] = 1e30f;
+    }
+    CD_ISA_NS::run_program(*materials[view.world_program].emission, *chunk, *out, *scratch);
+    for (int i = 0; i < n; ++i) radiance[i] = {out->emission[0][i], out->emission[1][i], out->emission[2][i]};
+}
+
+void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
+    const auto lamps = lamp_inputs(desc);
+    const auto triangles = emissive_triangles(desc);
+    light::WorldInput world;
+    if (view.has_world) {
+        const nodes::ProgramInfo& info = materials[view.world_program].info;
+        world.sampling = desc.world->sampling;
+        world.map_resolution = desc.world->map_resolution;
+        world.constant = info.constant_emission;
+        world.color = info.emission_value;
+        world.program = info.constant_emission ? -1 : view.world_program;
+        world.eval = [this](int n, const Float3* d, Float3* r) { evaluate_world(n, d, r); };
+    }
+    Float3 lo, hi;
+    scene_bounds(*pool, lo, hi);
+    lights = std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, lo, hi);
+    view.lights = &lights->data();
+    view.has_lights = !lights->empty();
+}
+
+}  // namespace cardioid::trace
