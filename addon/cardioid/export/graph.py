@@ -95,8 +95,8 @@ class GraphWalk:
     @staticmethod
     def _value(value: Any, passed: list[str], target: Any) -> Any:
         """A constant from the far end of `passed` (target side first), as `target` sees it."""
-        if target.hide_value:
-            return None  # unlinked normals and texture vectors: the engine has its own default
+        if sockets.is_geometric(target):
+            return None
         kinds = [*passed[::-1], target.type]
         for source, kind in zip(kinds, kinds[1:]):
             value = sockets.convert(value, source, kind)

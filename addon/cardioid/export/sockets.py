@@ -7,12 +7,18 @@ from typing import Any
 
 _LUMINANCE = (0.2126729, 0.7151522, 0.0721750)  # Rec.709, as Blender turns a colour into a number
 _NUMBERS = ("VALUE", "INT", "BOOLEAN")
+_GEOMETRIC = ("Normal", "Clearcoat Normal", "Coat Normal", "Tangent", "Position", "Direction", "Random")
 
 Value = float | list[float]
 
 
 def is_number(socket_type: str) -> bool:
     return socket_type in _NUMBERS
+
+
+def is_geometric(socket: Any) -> bool:
+    """Unlinked, this input takes the shaded point's own normal, tangent or coordinates: the engine has them."""
+    return socket.hide_value and (socket.identifier in _GEOMETRIC or socket.node.bl_idname.startswith("ShaderNodeTex"))
 
 
 def own_value(socket: Any) -> Value | None:
