@@ -136,7 +136,7 @@ Vec3 to_generated(const nodes::ShadingChunk& chunk, int i, Vec3 p) {
 
 }  // namespace
 
-void op_object_point(const Machine& m, const Instruction& in) {
+void op_transform(const Machine& m, const Instruction& in) {
     const auto space = static_cast<Space>(in.imm & 0xf);
     const auto quantity = static_cast<Quantity>(in.imm >> 4 & 0xf);
     const bool from_world = static_cast<Direction>(in.imm >> 8) == Direction::from_world;
@@ -155,6 +155,28 @@ void op_object_point(const Machine& m, const Instruction& in) {
         Vec3 r = from_world ? apply(to_local, to_world, quantity, v.at(i)) : apply(to_world, to_local, quantity, v.at(i));
         if (space == Space::generated) r = to_generated(m.chunk, i, r);
         store_vec(m, in, 0, i, r);
+    }
+}
+
+/// Cycles' frame about the geometric normal, so that bump mapping sees the same points.
+void op_surface_step(const Machine& m, const Instruction& in) {
+    for (int i = 0; i < m.end; i += W) {
+        const Vec3 n = load3(m.chunk.normal_geometric, i);
+        const Mask same = (n.x == n.y) & (n.x == n.z);
+        const Vec3 a = normalize(Vec3{n.z - n.y, select(same, n.x + n.z, n.x - n.z), select(same, -n.y - n.x, n.y - n.x)});
+        store_vec(m, in, 0, i, (in.imm == 0 ? a : cross(n, a)) * load(m.chunk.footprint + i));
+    }
+}
+
+void op_barycentric_step(const Machine& m, const Instruction& in) {
+    const Source3 d = m.arg3(in, 0);
+    for (int i = 0; i < m.end; i += W) {
+        const Vec3 p = d.at(i), a = load3(m.chunk.dp_du, i), b = load3(m.chunk.dp_dv, i);
+        const Float aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), pa = dot(p, a), pb = dot(p, b);
+        const Float det = aa * bb - ab * ab;
+        const Float inv = select(det > Float(0.0f), 1.0f / max(det, 1e-38f), Float(0.0f));
+        store(m.dst(in, 0) + i, load(m.chunk.barycentric_u + i) + (bb * pa - ab * pb) * inv);
+        store(m.dst(in, 1) + i, load(m.chunk.barycentric_v + i) + (aa * pb - ab * pa) * inv);
     }
 }
 

@@ -32,4 +32,24 @@ void op_normalize_or(const Machine& m, const Instruction& in) {
     }
 }
 
+void op_rotate(const Machine& m, const Instruction& in) {
+    const Source3 v = m.arg3(in, 0), axis = m.arg3(in, 3);
+    const Source angle = m.arg(in, 6);
+    for (int i = 0; i < m.end; i += W) {
+        Float s, c;
+        sincos(angle.at(i), s, c);
+        const Vec3 p = v.at(i), a = axis.at(i);
+        store_vec(m, in, 0, i, p * c + cross(a, p) * s + a * (dot(a, p) * (1.0f - c)));
+    }
+}
+
+void op_fresnel(const Machine& m, const Instruction& in) {
+    map2(m, in, [](Float cosine, Float eta) {
+        const Float c = abs(cosine), g2 = eta * eta - 1.0f + c * c;
+        const Float g = safe_sqrt(g2);
+        const Float a = (g - c) / (g + c), b = (c * (g + c) - 1.0f) / (c * (g - c) + 1.0f);
+        return select(g2 > Float(0.0f), 0.5f * a * a * (1.0f + b * b), Float(1.0f));
+    });
+}
+
 }  // namespace cardioid::CD_ISA_NS

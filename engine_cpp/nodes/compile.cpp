@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "nodes/compile.h"
+
+#include "nodes/emit_program.h"
+#include "nodes/estimate.h"
+#include "nodes/graph_compiler.h"
+#include "nodes/op_modes.h"
+
+#include <algorithm>
+
+namespace cardioid::nodes {
+
+namespace {
+
+/// What Blender shows without nodes: one shader of one colour.
+scene::GraphDesc plain_graph(const CompileContext& context) {
+    scene::NodeDesc node;
+    node.name = "Color";
+    node.type = context.kind == GraphKind::material ? "ShaderNodeBsdfDiffuse" : "ShaderNodeBackground";
+    scene::InputDesc color;
+    color.value = {context.fallback_color.x, context.fallback_color.y, context.fallback_color.z, 1};
+    node.inputs["Color"] = color;
+    scene::GraphDesc graph;
+    graph.nodes.push_back(node);
+    graph.surface = {0, "Shader"};
+    return graph;
+}
+
+bool uses(const Program& p, Op op) {
+    return std::any_of(p.code.begin(), p.code.end(), [op](const Instruction& in) { return in.op == op; });
+}
+
+bool reads_triangle(const Program& p) {
+    const auto frame = [](std::uint16_t arg) {
+        if ((arg & operand_chunk) == 0) return false;
+        const int row = arg & k_operand_index;
+        return row >= static_cast<int>(ChunkRow::barycentric_u) && row < static_cast<int>(ChunkRow::footprint);
+    };
+    return uses(p, Op::attribute) || uses(p, Op::barycentric_step) || std::any_of(p.args.begin(), p.args.end(), frame);
+}
+
+/// Sum of the operands of every `op`, when it is all that the program holds and is constant.
+bool constant_sum(const Program& p, Op op, Float3& sum) {
+    sum = {};
+    for (const Instruction& in : p.code) {
+        if (in.op != op) return false;
+        float v[3];
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const std::uint16_t arg = p.args[in.args + c];
+            if ((arg & operand_constant) == 0) return false;
+            v[c] = p.constants[static_cast<std::size_t>(arg & k_operand_index) * k_constant_stride];
+        }
+        sum = sum + Float3{v[0], v[1], v[2]};
+    }
+    return true;
+}
+
+ProgramInfo describe(const CompiledGraph& g) {
+    const Program& surface = g.of(Purpose::surface);
+    const Program& emission = g.of(Purpose::emission);
+    const Program& transparency = g.of(Purpose::transparency);
+    ProgramInfo info;
+    info.has_emission = uses(emission, Op::emission);
+    info.constant_emission = constant_sum(emission, Op::emission, info.emission_value);
+    info.emission_estimate = info.constant_emission ? info.emission_value : estimate_emission(emission);
+    info.has_transparency = uses(transparency, Op::transparent);
+    info.has_holdout = uses(transparency, Op::holdout);
+    info.constant_transparency = constant_sum(transparency, Op::transparent, info.transparency_value);
+    info.transparency_needs_light_path = uses(transparency, Op::ray_value);
+    info.needs_light_path = uses(surface, Op::ray_value);
+    info.has_bump = uses(surface, Op::surface_step);
+    info.needs_triangle_frame = reads_triangle(surface);
+    info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::transform);
+    for (const Instruction& in : surface.code)
+        info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
+                      in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;
+    info.has_lobes = info.lobes > 0;
+    return info;
+}
+
+}  // namespace
+
+CompiledGraph compile(const scene::GraphDesc& graph, const CompileContext& context, Warnings& warnings) {
+    if (graph.empty()) return compile(plain_graph(context), context, warnings);
+    GraphCompiler compiler(graph, context, warnings);
+    compiler.run();
+    CompiledGraph out;
+    bool too_large = false;
+    for (int k = 0; k < k_purposes; ++k)
+        out.program[k] = emit_program(compiler.builder(), static_cast<Purpose>(k), context.images, too_large);
+    if (too_large) {
+        warnings.add(context.name + "/too large", "The shader of '" + context.name + "' is too large; it is plain instead");
+        return compile(plain_graph(context), context, warnings);
+    }
+    out.info = describe(out);
+    return out;
+}
+
+}  // namespace cardioid::nodes

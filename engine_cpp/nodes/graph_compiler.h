@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Walks a shading graph and lets each node's translator write instructions. Loops, dangling links and unknown nodes are
+// cut and named; nothing here recurses over the graph's size.
+#pragma once
+
+#include "nodes/builder.h"
+#include "nodes/compile.h"
+#include "nodes/node_types.h"
+
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace cardioid::nodes {
+
+/// Where a node is evaluated: at the point, or a pixel's width beside it (for bump mapping).
+enum class Shift : std::uint8_t { none, x, y };
+
+struct Value {
+    enum class Type : std::uint8_t { number, vector, color };
+    Type type = Type::number;
+    Ref3 v;                     ///< a number is v.x
+};
+using Outputs = std::map<std::string, Value>;
+
+class GraphCompiler {
+public:
+    GraphCompiler(const scene::GraphDesc& graph, const CompileContext& context, Warnings& warnings);
+
+    void run();
+
+    Builder& builder() { return builder_; }
+    const CompileContext& context() const { return context_; }
+    int lobes() const { return lobes_; }
+
+private:
+    friend class NodeContext;
+
+    static constexpr int k_max_bump_depth = 16;
+
+    void cut_bad_links();
+    void cut_loops();
+    void run_closures(int root);
+    std::vector<int> closure_order(int root) const;
+    bool is_closure(int node) const { return types_[node] != nullptr && types_[node]->closure != nullptr; }
+    void name_unknown(int node);
+    /// An unknown shader is diffuse grey; an unknown texture gives nothing.
+    void unknown_surface(int node, Ref weight);
+    void evaluate(int node, Shift shift);
+    void evaluate_inputs(int node, Shift shift);
+    const Value* output(int node, const std::string& socket, Shift shift);
+    void warn(const std::string& key, const std::string& text) { warnings_.add(key, text); }
+    std::string place(int node) const;
+
+    scene::GraphDesc graph_;
+    const CompileContext& context_;
+    Warnings& warnings_;
+    Builder builder_;
+    std::vector<const NodeType*> types_;
+    std::unordered_map<int, Outputs> outputs_;      ///< by node * 3 + shift
+    std::vector<Ref> weight_;                       ///< of closures, summed over all ways to reach them
+    std::vector<bool> reached_;
+    std::set<std::pair<int, std::string>> used_;    ///< outputs that something is linked to
+    int bump_depth_ = 0;
+    int lobes_ = 0;
+};
+
+}  // namespace cardioid::nodes

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces that several translators share.
+#pragma once
+
+#include "nodes/node_context.h"
+
+namespace cardioid::nodes {
+
+/// Relative index for the side that wo is on.
+inline Ref sided_eta(NodeContext& c, Ref ior) {
+    const Ref eta = c.b.maximum(ior, c.b.constant(1e-5f));
+    return c.b.select_positive(c.b.chunk(ChunkRow::backfacing), c.b.divide(c.b.constant(1), eta), eta);
+}
+
+/// Blender's tangent of a surface without one: around the z axis of the generated coordinates.
+inline Ref3 default_tangent(NodeContext& c) {
+    const Ref3 g = c.generated();
+    const Ref half = c.b.constant(0.5f), zero = c.b.constant(0);
+    const Ref3 around = {c.b.subtract(half, g.y), c.b.subtract(g.x, half), zero};
+    const Ref3 t = c.b.emit3(Op::transform, {around.x, around.y, around.z}, transform_mode(Space::object, Quantity::normal, Direction::to_world));
+    const Ref3 n = c.normal();
+    return c.b.cross(n, c.b.normalize(c.b.cross(t, n)));
+}
+
+/// `v` turned about the unit `axis` by `angle` radians.
+inline Ref3 rotated(NodeContext& c, Ref3 v, Ref3 axis, Ref angle) {
+    return c.b.emit3(Op::rotate, {v.x, v.y, v.z, axis.x, axis.y, axis.z, angle});
+}
+
+/// Tangent input of a glossy node, turned about the normal; `rotation` counts whole turns.
+inline Ref3 rotated_tangent(NodeContext& c, Ref3 normal, const char* tangent, const char* rotation) {
+    const Ref3 t = c.linked(tangent) ? c.vector(tangent) : default_tangent(c);
+    const Ref turns = c.number(rotation, 0);
+    return c.b.is(turns, 0) ? t : rotated(c, t, normal, c.b.multiply(turns, c.b.constant(6.2831853f)));
+}
+
+/// Principled's stretch of alpha.
+inline void anisotropic_alpha(NodeContext& c, Ref alpha, Ref anisotropic, GgxLobe& lobe) {
+    const Ref aspect = c.b.emit(Op::square_root, {c.b.one_minus(c.b.multiply(anisotropic, c.b.constant(0.9f)))});
+    lobe.alpha_x = c.b.divide(alpha, aspect);
+    lobe.alpha_y = c.b.multiply(alpha, aspect);
+}
+
+enum class TextureDefault { generated, uv, position };
+/// The "Vector" of a texture node, through its old mapping panel; unlinked: the default coordinates.
+Ref3 texture_point(NodeContext& c, TextureDefault unlinked);
+
+/// The render-active UV map, z 0.
+inline Ref3 active_uv(NodeContext& c) {
+    const Results r = c.attribute(k_active_uv);
+    return {r[0], r[1], c.b.constant(0)};
+}
+
+/// a·v + translation with a constant matrix.
+Ref3 constant_affine(NodeContext& c, const Affine& a, Ref3 v, bool translate);
+
+/// Fresnel reflectance of a dielectric for the cosine of incidence.
+inline Ref fresnel(NodeContext& c, Ref cosine, Ref eta) { return c.b.emit(Op::fresnel, {cosine, eta}); }
+
+}  // namespace cardioid::nodes

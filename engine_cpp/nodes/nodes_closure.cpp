@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// BSDF, emission and mixing nodes.
+#include "nodes/node_helpers.h"
+
+namespace cardioid::nodes {
+
+namespace {
+
+using bsdf::Fresnel;
+using bsdf::LobeKind;
+
+/// Colour of a closure times its weight; negative colours are black.
+Ref3 weighted(NodeContext& c, Ref weight) { return c.b.multiply(c.b.maximum(c.color("Color", {0.8f, 0.8f, 0.8f}), c.b.constant(0)), weight); }
+
+void mix_shader(NodeContext& c, Ref weight) {
+    const Ref fac = c.b.saturate(c.number("Fac", 0.5f));
+    c.shader("Shader", c.b.multiply(weight, c.b.one_minus(fac)));
+    c.shader("Shader_001", c.b.multiply(weight, fac));
+}
+
+void add_shader(NodeContext& c, Ref weight) {
+    c.shader("Shader", weight);
+    c.shader("Shader_001", weight);
+}
+
+void emission(NodeContext& c, Ref weight) {
+    c.b.emission(c.b.multiply(c.b.multiply(c.color("Color", {1, 1, 1}), c.number("Strength", 1)), weight));
+}
+
+void transparent(NodeContext& c, Ref weight) { c.b.transparent(weighted(c, weight)); }
+void holdout(NodeContext& c, Ref weight) { c.b.holdout(weight); }
+
+void diffuse(NodeContext& c, Ref weight) {
+    const Ref roughness = c.number("Roughness", 0);
+    const bool modern = c.property("version", 1) >= 2 && !c.b.is(roughness, 0);
+    c.simple_lobe(LobeKind::diffuse, weighted(c, weight), c.closure_normal("Normal", false), roughness, modern,
+                  c.b.saturate(c.color("Color", {0.8f, 0.8f, 0.8f})));
+}
+
+void translucent(NodeContext& c, Ref weight) {
+    const Ref3 w = weighted(c, weight);
+    c.simple_lobe(LobeKind::translucent, w, c.closure_normal("Normal", true), c.b.constant(0), false, w);
+}
+
+void subsurface(NodeContext& c, Ref weight) {
+    const Ref3 w = weighted(c, weight);
+    c.simple_lobe(LobeKind::diffuse, w, c.closure_normal("Normal", false), c.b.constant(0), false, w);
+}
+
+void plain_diffuse(NodeContext& c, Ref weight) { subsurface(c, weight); }
+
+void velvet(NodeContext& c, Ref weight) {
+    const Ref3 w = weighted(c, weight);
+    c.simple_lobe(LobeKind::velvet, w, c.closure_normal("Normal", false), c.b.saturate(c.number("Sigma", 1)), false, w);
+}
+
+void sheen(NodeContext& c, Ref weight) {
+    const Ref3 w = weighted(c, weight);
+    const Ref roughness = c.b.saturate(c.number("Roughness", 0.5f));
+    const Ref3 n = c.closure_normal("Normal", false);
+    if (c.text("distribution", "MICROFIBER") == "ASHIKHMIN")
+        c.simple_lobe(LobeKind::velvet, w, n, roughness, false, w);
+    else
+        c.sheen_lobe(w, n, roughness, w);
+}
+
+/// Blender's roughness, squared; 0 for the old "sharp" distribution.
+Ref alpha_of(NodeContext& c, float fallback) {
+    if (c.text("distribution") == "SHARP") return c.b.constant(0);
+    const Ref r = c.b.saturate(c.number("Roughness", fallback));
+    return c.b.multiply(r, r);
+}
+
+void glossy(NodeContext& c, Ref weight) {
+    GgxLobe l = c.ggx();
+    l.weight = weighted(c, weight);
+    l.normal = c.closure_normal("Normal", true);
+    l.alpha_x = l.alpha_y = alpha_of(c, 0.5f);
+    l.preserve_energy = c.text("distribution", "GGX") == "MULTI_GGX";
+    if (l.preserve_energy) l.f0 = c.b.saturate(c.color("Color"));
+    const Ref anisotropy = c.b.emit(Op::clamp, {c.number("Anisotropy", 0), c.b.constant(-0.99f), c.b.constant(0.99f)});
+    if (!c.b.is(anisotropy, 0)) {
+        // Positive stretches along the second axis, negative along the first.
+        const Ref alpha = l.alpha_x, one = c.b.constant(1);
+        const Ref plus = c.b.add(one, anisotropy), minus = c.b.subtract(one, anisotropy);
+        l.alpha_x = c.b.select_positive(anisotropy, c.b.multiply(alpha, minus), c.b.divide(alpha, plus));
+        l.alpha_y = c.b.select_positive(anisotropy, c.b.divide(alpha, minus), c.b.multiply(alpha, plus));
+        l.tangent = rotated_tangent(c, l.normal, "Tangent", "Rotation");
+    }
+    c.ggx_lobe(l);
+}
+
+void glass(NodeContext& c, Ref weight) {
+    GgxLobe l = c.ggx();
+    l.kind = LobeKind::ggx_glass;
+    l.fresnel = Fresnel::dielectric;
+    l.weight = weighted(c, weight);
+    l.normal = c.closure_normal("Normal", true);
+    l.alpha_x = l.alpha_y = alpha_of(c, 0);
+    l.preserve_energy = c.text("distribution", "GGX") == "MULTI_GGX" && !c.b.is(l.alpha_x, 0);
+    l.f0 = c.b.saturate(c.color("Color"));
+    l.eta = sided_eta(c, c.number("IOR", 1.45f));
+    c.ggx_lobe(l);
+}
+
+void refraction(NodeContext& c, Ref weight) {
+    GgxLobe l = c.ggx();
+    l.kind = LobeKind::ggx_refraction;
+    l.weight = weighted(c, weight);
+    l.normal = c.closure_normal("Normal", true);
+    l.alpha_x = l.alpha_y = alpha_of(c, 0);
+    l.eta = sided_eta(c, c.number("IOR", 1.45f));
+    c.ggx_lobe(l);
+}
+
+void metallic(NodeContext& c, Ref weight) {
+    GgxLobe l = c.ggx();
+    const Ref zero = c.b.constant(0);
+    l.weight = c.b.broadcast(weight);
+    l.normal = c.closure_normal("Normal", true);
+    l.preserve_energy = c.text("distribution", "MULTI_GGX") == "MULTI_GGX";
+    const Ref alpha = alpha_of(c, 0.5f);
+    l.alpha_x = l.alpha_y = alpha;
+    const Ref anisotropy = c.b.saturate(c.number("Anisotropy", 0));
+    if (!c.b.is(anisotropy, 0)) {
+        anisotropic_alpha(c, alpha, anisotropy, l);
+        l.tangent = rotated_tangent(c, l.normal, "Tangent", "Rotation");
+    }
+    if (c.text("fresnel_type", "F82") == "PHYSICAL_CONDUCTOR") {
+        l.fresnel = Fresnel::conductor;
+        l.f0 = c.b.maximum(c.vector("IOR", {2.757f, 2.513f, 2.231f}), zero);
+        l.f90 = c.b.maximum(c.vector("Extinction", {3.867f, 3.404f, 3.009f}), zero);
+    } else {
+        l.fresnel = Fresnel::f82;
+        l.f0 = c.b.saturate(c.color("Base Color", {0.617f, 0.577f, 0.540f}));
+        l.f90 = c.b.saturate(c.color("Edge Tint", {0.695f, 0.726f, 0.770f}));
+    }
+    c.ggx_lobe(l);
+}
+
+constexpr const char* k_beckmann = "Beckmann and Ashikhmin-Shirley are GGX of the same roughness";
+
+constexpr NodeType k_nodes[] = {
+    {"ShaderNodeMixShader", nullptr, mix_shader, Support::same, ""},
+    {"ShaderNodeAddShader", nullptr, add_shader, Support::same, ""},
+    {"ShaderNodeEmission", nullptr, emission, Support::same, ""},
+    {"ShaderNodeBackground", nullptr, emission, Support::same, ""},
+    {"ShaderNodeBsdfTransparent", nullptr, transparent, Support::same, ""},
+    {"ShaderNodeHoldout", nullptr, holdout, Support::same, ""},
+    {"ShaderNodeBsdfDiffuse", nullptr, diffuse, Support::same, ""},
+    {"ShaderNodeBsdfTranslucent", nullptr, translucent, Support::same, ""},
+    {"ShaderNodeBsdfGlossy", nullptr, glossy, Support::approximated, k_beckmann},
+    {"ShaderNodeBsdfAnisotropic", nullptr, glossy, Support::approximated, k_beckmann},
+    {"ShaderNodeBsdfGlass", nullptr, glass, Support::approximated, k_beckmann},
+    {"ShaderNodeBsdfRefraction", nullptr, refraction, Support::approximated, k_beckmann},
+    {"ShaderNodeBsdfMetallic", nullptr, metallic, Support::approximated, "no thin film; Beckmann is GGX"},
+    {"ShaderNodeBsdfVelvet", nullptr, velvet, Support::same, ""},
+    {"ShaderNodeBsdfSheen", nullptr, sheen, Support::same, ""},
+    {"ShaderNodeSubsurfaceScattering", nullptr, subsurface, Support::approximated, "a diffuse surface of its colour"},
+    {"ShaderNodeBsdfToon", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
+    {"ShaderNodeBsdfHair", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
+    {"ShaderNodeBsdfHairPrincipled", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
+};
+
+}  // namespace
+
+std::span<const NodeType> closure_nodes() { return k_nodes; }
+
+}  // namespace cardioid::nodes
