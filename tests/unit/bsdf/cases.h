@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The lobes that the statistical tests go through.
+#pragma once
+
+#include "model.h"
+
+#include <vector>
+
+namespace cardioid::test {
+
+struct Case {
+    Model model;
+    Vec3 wo;
+    std::string name;
+};
+
+inline std::vector<Model> all_models() {
+    using bsdf::Fresnel;
+    using bsdf::LobeKind;
+    std::vector<Model> out;
+    const auto add = [&](const std::string& name, const bsdf::Lobe& l) { out.push_back(model_of(name, l)); };
+    for (const float r : {0.0f, 0.5f, 1.0f}) add("diffuse " + std::to_string(r), lobe_of(LobeKind::diffuse, r));
+    add("translucent", lobe_of(LobeKind::translucent, 0));
+    for (const float r : {0.1f, 1.0f}) add("burley " + std::to_string(r), lobe_of(LobeKind::burley, r));
+    for (const float r : {0.3f, 1.0f}) add("velvet " + std::to_string(r), lobe_of(LobeKind::velvet, r));
+    for (const float r : {0.15f, 0.5f, 1.0f}) add("sheen " + std::to_string(r), lobe_of(LobeKind::sheen, r));
+    add("sheen_v1", lobe_of(LobeKind::sheen_v1, 0));
+    for (const float r : {0.1f, 0.3f, 0.6f, 1.0f}) {
+        const std::string name = std::to_string(r);
+        add("reflection " + name, lobe_of(LobeKind::ggx_reflection, r));
+        for (const float eta : {1.5f, 1 / 1.5f}) {
+            const std::string side = name + (eta > 1 ? " outside" : " inside");
+            add("refraction " + side, lobe_of(LobeKind::ggx_refraction, r, Fresnel::none, eta));
+            add("glass " + side, lobe_of(LobeKind::ggx_glass, r, Fresnel::dielectric, eta));
+        }
+    }
+    bsdf::Lobe anisotropic = lobe_of(LobeKind::ggx_reflection, 0.5f);
+    fill(anisotropic.alpha_x, 0.5f);
+    fill(anisotropic.alpha_y, 0.1f);
+    fill3(anisotropic.tangent, 0.6f, 0.8f, 0.3f);
+    add("reflection anisotropic", anisotropic);
+    bsdf::Lobe metal = lobe_of(LobeKind::ggx_reflection, 0.5f, Fresnel::f82);
+    fill3(metal.f0, 0.9f, 0.6f, 0.3f);
+    fill3(metal.f90, 0.8f, 0.9f, 0.5f);
+    metal.preserve_energy = true;
+    add("reflection f82 compensated", metal);
+    bsdf::Lobe coat = lobe_of(LobeKind::ggx_reflection, 0.4f, Fresnel::schlick, 1.45f);
+    fill3(coat.f0, 0.04f, 0.03f, 0.02f);
+    coat.preserve_energy = true;
+    add("reflection schlick compensated", coat);
+    bsdf::Lobe tinted = lobe_of(LobeKind::ggx_glass, 0.5f, Fresnel::schlick, 1.33f);
+    fill3(tinted.f0, 0.02f, 0.05f, 0.1f);
+    fill3(tinted.tint_transmission, 0.9f, 0.5f, 0.2f);
+    tinted.preserve_energy = true;
+    add("glass tinted compensated", tinted);
+    return out;
+}
+
+/// Every model at three angles, each with an azimuth of its own.
+inline std::vector<Case> all_cases() {
+    std::vector<Case> out;
+    for (const Model& m : all_models())
+        for (const float c : {0.95f, 0.5f, 0.12f}) out.push_back({m, direction(c, 1 + 4 * c), m.name + ", cos " + std::to_string(c)});
+    // The geometric normal cuts off part of the hemisphere.
+    for (const auto kind : {bsdf::LobeKind::diffuse, bsdf::LobeKind::ggx_reflection, bsdf::LobeKind::ggx_glass}) {
+        const Vec3 wo = direction(0.5f, 0.3f);
+        out.push_back({model_of("bent", lobe_of(kind, 0.6f), direction(0.9f, 2.0f)), wo, "bent " + std::to_string(static_cast<int>(kind))});
+    }
+    return out;
+}
+
+}  // namespace cardioid::test
