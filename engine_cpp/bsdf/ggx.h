@@ -44,9 +44,16 @@ inline Mask ggx_is_delta(const bsdf::Lobe& lobe, int i) {
     return smooth | (abs(load(lobe.eta + i) - 1.0f) < Float(bsdf::k_delta_eta));
 }
 
+/// Follows the tangent in anisotropic lanes only: a lane's samples must not depend on its neighbours.
 inline Frame ggx_frame(const bsdf::Lobe& lobe, int i, Float ax, Float ay) {
-    const Vec3 n = load3(lobe.normal, i);
-    return any(ax != ay) ? Frame(n, load3(lobe.tangent, i)) : Frame(n);
+    const Mask anisotropic = ax != ay;
+    Frame frame(load3(lobe.normal, i));
+    if (any(anisotropic)) {
+        const Frame along(frame.n, load3(lobe.tangent, i));
+        frame.s = select(anisotropic, along.s, frame.s);
+        frame.t = select(anisotropic, along.t, frame.t);
+    }
+    return frame;
 }
 
 inline GgxPoint ggx_point(const bsdf::Lobe& lobe, int i, Vec3 wo) {
