@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Conversions that a link undergoes on its way through sockets of groups and reroutes.
 
-A colour that enters a group through a number socket is grey inside. The engine converts once, from the type of the source
-to that of the input, so a detour through a number becomes a node of its own.
+A colour that enters a group through a number socket is grey inside. The engine converts once, from the type of the
+source to that of the input, so a detour through a number becomes a node of its own.
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from . import conversions, nodes, sockets
@@ -98,7 +99,7 @@ class GraphWalk:
         if sockets.is_geometric(target):
             return None
         kinds = [*passed[::-1], target.type]
-        for source, kind in zip(kinds, kinds[1:]):
+        for source, kind in pairwise(kinds):
             value = sockets.convert(value, source, kind)
         return value
 

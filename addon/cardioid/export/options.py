@@ -24,7 +24,7 @@ class ExportOptions:
     crop: render border in pixels (x, y, width, height) from the bottom left; zeros: the whole frame.
     settings: keywords of `Scene.set_settings`, resolved; width, height and crop are filled in from here.
     passes: names of the passes that will be read; Combined is always there.
-    engine: the RenderEngine, for the camera's matrix and shift (stereo) and its override; None: the scene's camera alone.
+    engine: the RenderEngine, for the camera's matrix and shift (stereo) and its override; None: the scene's camera.
     should_stop: asked between objects; True ends the export with ExportCancelled.
     """
 

@@ -99,14 +99,14 @@ def test_rgb_curves_apply_the_combined_curve_first():
 
 
 def test_vector_and_float_curves():
-    node, found = exported_node("ShaderNodeVectorCurve")
+    _, found = exported_node("ShaderNodeVectorCurve")
     params = found()["params"]
     assert (params["curve_min"], params["curve_max"]) == (-1, 1)
     assert params["curve_table_z"][0] == pytest.approx(-1) and params["curve_table_x"][-1] == pytest.approx(1)
 
 
 def test_float_curve():
-    node, found = exported_node("ShaderNodeFloatCurve", target="Roughness")
+    _, found = exported_node("ShaderNodeFloatCurve", target="Roughness")
     assert found()["params"]["curve_table_v"][128] == pytest.approx(128 / 255, abs=0.01)
 
 
@@ -127,12 +127,12 @@ def test_old_texture_mapping_is_told_only_when_it_does_something():
 
 
 def test_unsupported_nodes_are_passed_through_by_type():
-    node, found = exported_node("ShaderNodeWireframe")
+    _, found = exported_node("ShaderNodeWireframe")
     assert found()["type"] == "ShaderNodeWireframe" and found()["params"] == {"use_pixel_size": False}
 
 
 def test_attribute_parameters():
-    node, found = exported_node("ShaderNodeAttribute", attribute_name="mine")
+    _, found = exported_node("ShaderNodeAttribute", attribute_name="mine")
     assert found()["params"] == {"attribute_type": "GEOMETRY", "attribute_name": "mine"}
 
 
@@ -162,7 +162,7 @@ def test_every_shader_node_can_be_exported():
 
 def test_an_unreadable_tree_is_named_and_the_rest_renders(monkeypatch):
     from cardioid.export import nodes
-    node, _ = exported_node("ShaderNodeTexNoise")
+    exported_node("ShaderNodeTexNoise")
 
     def broken(*_):
         raise ValueError("broken on purpose")
