@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "image/sampler.h"
+
+#include "image/half.h"
+
+#include <cstring>
+
+namespace cardioid::image {
+namespace {
+
+/// Largest coordinate that is told apart from its neighbours; also what NaN becomes, with the sign changed.
+constexpr float k_far = 1e6f;
+
+float bounded(float u) {
+    const float above = u > -k_far ? u : -k_far;
+    return above < k_far ? above : k_far;
+}
+
+int floor_int(float x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
+float fraction(float u) { return u - static_cast<float>(floor_int(u)); }
+
+/// Texel coordinate of u before the taps are spread. Periods are taken out here, in floats, so that no division of
+/// integers is needed later.
+template <Extension E>
+float scaled(float u, float size) {
+    if constexpr (E == Extension::repeat) return fraction(bounded(u)) * size;
+    if constexpr (E == Extension::mirror) return fraction(bounded(u) * 0.5f) * 2.0f * size;
+    // Beyond the border everything is alike, and the product must fit an integer.
+    const float near = u > -8.0f ? u : -8.0f;
+    return (near < 8.0f ? near : 8.0f) * size;
+}
+
+/// Texel i, which is at most 3 outside its period.
+template <Extension E>
+int wrapped(int i, int size) {
+    if constexpr (E == Extension::repeat) {
+        i = i < 0 ? i + size : i;
+        return i >= size ? i - size : i;
+    } else if constexpr (E == Extension::extend) {
+        i = i < 0 ? 0 : i;
+        return i >= size ? size - 1 : i;
+    } else if constexpr (E == Extension::clip) {
+        return i < size ? i : -1;
+    } else {
+        i = i < 0 ? -1 - i : i;
+        i = i >= 2 * size ? i - 2 * size : i;
+        return i >= size ? 2 * size - 1 - i : i;
+    }
+}
+
+/// For images of fewer texels than a footprint has taps.
+int wrapped_small(Extension extension, int i, int size) {
+    switch (extension) {
+        case Extension::repeat: return (i % size + size) % size;
+        case Extension::extend: return i < 0 ? 0 : i >= size ? size - 1 : i;
+        case Extension::clip: return i >= 0 && i < size ? i : -1;
+        case Extension::mirror: break;
+    }
+    const int period = (i % (2 * size) + 2 * size) % (2 * size);
+    return period < size ? period : 2 * size - 1 - period;
+}
+
+/// B-spline weights of the four texels around a point at t between the middle two.
+void cubic_weights(float t, float w[4]) {
+    const float s = 1 - t;
+    w[0] = s * s * s * (1.0f / 6);
+    w[1] = (0.5f * t - 1) * t * t + 2.0f / 3;
+    w[2] = (0.5f * s - 1) * s * s + 2.0f / 3;
+    w[3] = t * t * t * (1.0f / 6);
+}
+
+template <Extension E, int taps>
+void place_axis(AxisTaps& axis, int size, int n, const float* u) {
+    const float extent = static_cast<float>(size);
+    const bool small = size < 4;
+    for (int i = 0; i < n; ++i) {
+        const float x = scaled<E>(u[i], extent) - (taps == 1 ? 0.0f : 0.5f);
+        const int whole = floor_int(x);
+        const float t = x - static_cast<float>(whole);
+        const int first = whole - (taps == 4 ? 1 : 0);
+        for (int k = 0; k < taps; ++k) axis.texel[k][i] = wrapped<E>(first + k, size);
+        if (small)
+            for (int k = 0; k < taps; ++k) axis.texel[k][i] = wrapped_small(E, first + k, size);
+        if constexpr (taps == 2) {
+            axis.weight[0][i] = 1 - t;
+            axis.weight[1][i] = t;
+        } else if constexpr (taps == 4) {
+            float w[4];
+            cubic_weights(t, w);
+            for (int k = 0; k < 4; ++k) axis.weight[k][i] = w[k];
+        }
+    }
+}
+
+template <int taps>
+void place_taps(AxisTaps& axis, Extension extension, int size, int n, const float* u) {
+    switch (extension) {
+        case Extension::repeat: return place_axis<Extension::repeat, taps>(axis, size, n, u);
+        case Extension::extend: return place_axis<Extension::extend, taps>(axis, size, n, u);
+        case Extension::clip: return place_axis<Extension::clip, taps>(axis, size, n, u);
+        case Extension::mirror: return place_axis<Extension::mirror, taps>(axis, size, n, u);
+    }
+}
+
+/// One texel as floats in storage units; grey has alpha 0, which finish() replaces.
+template <Storage S, int channels>
+Quad decode(const std::byte* texel) {
+    if constexpr (channels == 1) {
+        float value;
+        if constexpr (S == Storage::byte) {
+            value = static_cast<float>(*texel);
+        } else if constexpr (S == Storage::real) {
+            std::memcpy(&value, texel, 4);
+        } else {
+            std::uint16_t bits;
+            std::memcpy(&bits, texel, 2);
+            value = S == Storage::half ? float_from_half(bits) : static_cast<float>(bits);
+        }
+        return Quad{value, value, value, 0};
+    } else if constexpr (S == Storage::byte) {
+        typedef std::uint8_t Bytes __attribute__((vector_size(4)));
+        Bytes bytes;
+        std::memcpy(&bytes, texel, 4);
+        return __builtin_convertvector(bytes, Quad);
+    } else if constexpr (S == Storage::real) {
+        Quad value;
+        std::memcpy(&value, texel, 16);
+        return value;
+    } else {
+        typedef std::uint16_t Shorts __attribute__((vector_size(8)));
+        typedef std::uint32_t Words __attribute__((vector_size(16)));
+        Shorts shorts;
+        std::memcpy(&shorts, texel, 8);
+        if constexpr (S == Storage::ushort) return __builtin_convertvector(shorts, Quad);
+        const Words words = __builtin_convertvector(shorts, Words);
+        const Quad magnitude = std::bit_cast<Quad>((words & 0x7fffu) << 13) * 0x1p112f;
+        return std::bit_cast<Quad>(std::bit_cast<Words>(magnitude) | ((words & 0x8000u) << 16));
+    }
+}
+
+template <Storage S>
+constexpr float k_unit = S == Storage::byte ? 1.0f / 255 : S == Storage::ushort ? 1.0f / 65535 : 1.0f;
+
+struct TileView {
+    const std::byte* data;
+    int index;
+};
+
+TileView tile_at(const Texture& texture, int x, int y) {
+    const int index = (y >> k_tile_shift) * texture.tiles_x + (x >> k_tile_shift);
+    const std::byte* data = texture.tiles[index].load(std::memory_order_acquire);
+    if (texture.evictable && data && !texture.used[index].load(std::memory_order_relaxed))
+        texture.used[index].store(true, std::memory_order_relaxed);
+    return {data, index};
+}
+
+template <Storage S, int channels>
+class Fetcher {
+public:
+    explicit Fetcher(const Texture& texture) : texture_(texture), associate_(channels == 4 && texture.associate) {}
+
+    template <int taps>
+    int run(const Footprint& f, int first, int n, Quad* colors, int& missing) const {
+        for (int i = first; i < n; ++i)
+            if (!point<taps>(f, i, colors[i], missing)) return i;
+        return n;
+    }
+
+private:
+    static constexpr std::size_t k_texel = channel_bytes(S) * channels;
+
+    Quad read(const std::byte* texel) const {
+        const Quad value = decode<S, channels>(texel) * k_unit<S>;
+        if constexpr (channels == 1) return value;
+        return associate_ ? value * Quad{value[3], value[3], value[3], 1} : value;
+    }
+    static const std::byte* inside(const std::byte* tile, int x, int y) {
+        return tile + static_cast<std::size_t>(((y & (k_tile - 1)) << k_tile_shift) | (x & (k_tile - 1))) * k_texel;
+    }
+
+    template <int taps>
+    bool point(const Footprint& f, int i, Quad& color, int& missing) const {
+        constexpr int last = taps - 1;
+        const int x = f.x.texel[0][i], y = f.y.texel[0][i], far_x = f.x.texel[last][i], far_y = f.y.texel[last][i];
+        // Nearly always all taps are neighbours in one tile.
+        const bool together = (x | y) >= 0 && far_x == x + last && far_y == y + last && ((x ^ far_x) | (y ^ far_y)) < k_tile;
+        if (!together) return scattered<taps>(f, i, color, missing);
+        const TileView tile = tile_at(texture_, x, y);
+        missing = tile.index;
+        if (!tile.data) return false;
+        const std::byte* row = inside(tile.data, x, y);
+        if constexpr (taps == 1) {
+            color = read(row);
+        } else {
+            Quad sum{0, 0, 0, 0};
+            for (int b = 0; b < taps; ++b, row += k_tile * k_texel) {
+                Quad line{0, 0, 0, 0};
+                for (int a = 0; a < taps; ++a) line += f.x.weight[a][i] * read(row + a * k_texel);
+                sum += f.y.weight[b][i] * line;
+            }
+            color = sum;
+        }
+        return true;
+    }
+
+    template <int taps>
+    bool scattered(const Footprint& f, int i, Quad& color, int& missing) const {
+        Quad sum{0, 0, 0, 0};
+        for (int b = 0; b < taps; ++b) {
+            for (int a = 0; a < taps; ++a) {
+                const int x = f.x.texel[a][i], y = f.y.texel[b][i];
+                if ((x | y) < 0) continue;
+                const TileView tile = tile_at(texture_, x, y);
+                missing = tile.index;
+                if (!tile.data) return false;
+                const float weight = taps == 1 ? 1.0f : f.x.weight[a][i] * f.y.weight[b][i];
+                sum += weight * read(inside(tile.data, x, y));
+            }
+        }
+        color = sum;
+        return true;
+    }
+
+    const Texture& texture_;
+    bool associate_;
+};
+
+template <Storage S, int channels>
+int fetch_as(const Texture& texture, const Footprint& f, int first, int n, Quad* colors, int& missing) {
+    const Fetcher<S, channels> fetcher(texture);
+    if (f.taps == 1) return fetcher.template run<1>(f, first, n, colors, missing);
+    if (f.taps == 2) return fetcher.template run<2>(f, first, n, colors, missing);
+    return fetcher.template run<4>(f, first, n, colors, missing);
+}
+
+}  // namespace
+
+void place(Footprint& footprint, Interpolation interpolation, Extension extension, int width, int height, int n,
+           const float* u, const float* v) {
+    switch (interpolation) {
+        case Interpolation::closest:
+            footprint.taps = 1;
+            place_taps<1>(footprint.x, extension, width, n, u);
+            return place_taps<1>(footprint.y, extension, height, n, v);
+        case Interpolation::linear:
+            footprint.taps = 2;
+            place_taps<2>(footprint.x, extension, width, n, u);
+            return place_taps<2>(footprint.y, extension, height, n, v);
+        case Interpolation::cubic:
+            footprint.taps = 4;
+            place_taps<4>(footprint.x, extension, width, n, u);
+            return place_taps<4>(footprint.y, extension, height, n, v);
+    }
+}
+
+int fetch(const Texture& texture, const Footprint& footprint, int first, int n, Quad* colors, int& missing) {
+    const auto run = [&]<Storage S>() {
+        return texture.channels == 1 ? fetch_as<S, 1>(texture, footprint, first, n, colors, missing)
+                                     : fetch_as<S, 4>(texture, footprint, first, n, colors, missing);
+    };
+    switch (texture.storage) {
+        case Storage::byte: return run.template operator()<Storage::byte>();
+        case Storage::ushort: return run.template operator()<Storage::ushort>();
+        case Storage::half: return run.template operator()<Storage::half>();
+        case Storage::real: break;
+    }
+    return run.template operator()<Storage::real>();
+}
+
+void finish(const Texture& texture, const SrgbTable& srgb, AlphaUse alpha, int n, const Quad* colors, Row rgba[4]) {
+    const bool grey = texture.channels == 1;
+    for (int i = 0; i < n; ++i) {
+        rgba[0][i] = colors[i][0];
+        rgba[1][i] = colors[i][1];
+        rgba[2][i] = colors[i][2];
+        rgba[3][i] = grey ? 1.0f : colors[i][3];
+    }
+    if (alpha == AlphaUse::straight && texture.may_divide && !grey) {
+        for (int i = 0; i < n; ++i) {
+            const float a = rgba[3][i];
+            const float scale = a != 0 && a != 1 ? 1 / a : 1.0f;
+            rgba[0][i] *= scale;
+            rgba[1][i] *= scale;
+            rgba[2][i] *= scale;
+        }
+    }
+    if (!texture.srgb) return;
+    for (int c = 0; c < (grey ? 1 : 3); ++c)
+        for (int i = 0; i < n; ++i) rgba[c][i] = srgb(rgba[c][i]);
+    if (!grey) return;
+    for (int i = 0; i < n; ++i) rgba[1][i] = rgba[2][i] = rgba[0][i];
+}
+
+}  // namespace cardioid::image
