@@ -15,7 +15,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "corner_normals": (4, 1),        # mesh.corner_normals; before: calc_normals_split and auto smooth
     "array_attributes": (4, 1),      # 'position' and '.corner_vert' are attributes, uv_layer.uv exists
     "principled_2": (4, 0),          # Principled BSDF with Coat, Sheen Weight, …
-    "sphere_lamps": (4, 0),          # soft point and spot lamps are spheres unless use_soft_falloff
+    "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
     "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
     "emission_sampling": (3, 5),     # material.cycles.emission_sampling replaces sample_as_light
     "material_transparent_shadow": (4, 2),  # on the material; before: on material.cycles
@@ -53,11 +53,6 @@ def transparent_shadow(material: Any) -> bool:
     if has("material_transparent_shadow"):
         return bool(material.use_transparent_shadow)
     return bool(cycles(material, "use_transparent_shadow", True))
-
-
-def legacy_lamp(light: Any) -> bool:
-    """Soft lamps that face the shaded point, as all did before 4.0."""
-    return not has("sphere_lamps") or bool(getattr(light, "use_soft_falloff", False))
 
 
 def node_versions(node_type: str) -> dict[str, Any]:

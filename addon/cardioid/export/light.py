@@ -25,6 +25,7 @@ def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None) -> dict[str, A
         "cast_shadow": compat.casts_shadow(light),
         "use_mis": bool(compat.cycles(light, "use_multiple_importance_sampling", True)),
         "max_bounces": compat.cycles(light, "max_bounces", 1024),
+        "legacy_lamp": not compat.has("new_lamps"),
         "normalize": bool(getattr(light, "normalize", True)),
         "visibility": object_visibility(obj),
     }
@@ -35,7 +36,7 @@ def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None) -> dict[str, A
 
 
 def _point(light: Any) -> dict[str, Any]:
-    return {"radius": light.shadow_soft_size, "legacy_lamp": compat.legacy_lamp(light)}
+    return {"radius": light.shadow_soft_size}
 
 
 def _spot(light: Any) -> dict[str, Any]:

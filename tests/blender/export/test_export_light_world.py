@@ -27,7 +27,7 @@ def test_point_lamp():
     found = only_light()
     assert (found["kind"], found["energy"]) == ("point", 12) and found["color"] == pytest.approx([1, 0.5, 0.25])
     assert found["radius"] == pytest.approx(0.3) and found["transform"][3::4] == pytest.approx((1, 2, 3))
-    assert found["legacy_lamp"] is (not compat.has("sphere_lamps") or lamp("POINT").data.use_soft_falloff)
+    assert found["legacy_lamp"] is (bpy.app.version < (4, 0))
 
 
 def test_spot_lamp():
