@@ -12,7 +12,6 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import bpy  # noqa: E402
-
 import common as c  # noqa: E402
 
 
@@ -103,7 +102,7 @@ def bricks() -> bpy.types.Material:
 
 
 def band(inner: float, outer: float, height: float, steps: int = 72) -> list[tuple[float, float]]:
-    """The ring's profile: an almost flat inside, which throws the cardioid, and a bulging outside, which mirrors the room."""
+    """The ring's profile: its inside, almost flat, throws the cardioid; its outside bulges and mirrors the room."""
     middle, points = inner + 0.3 * (outer - inner), []
     for k in range(steps):
         t = 2 * math.pi * k / steps
