@@ -5,7 +5,7 @@ set(CARDIOID_FLAGS_w1 -march=x86-64-v2)
 set(CARDIOID_FLAGS_w8 -mavx2 -mfma -mf16c -mbmi -mbmi2)
 # GCC 12 warns of its own AVX-512 headers (GCC bug 105593).
 set(CARDIOID_FLAGS_w16 ${CARDIOID_FLAGS_w8} -mavx512f -mavx512dq -mavx512vl -mavx512bw -mprefer-vector-width=512
-    -Wno-maybe-uninitialized)
+    -Wno-maybe-uninitialized -Wno-uninitialized)
 set(CARDIOID_KERNEL_FLAGS -O3 -fno-math-errno -fno-trapping-math -ffp-contract=off)
 
 add_library(cardioid_options INTERFACE)
