@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cardioid: a render engine for Blender. `register` works, and says what is missing, where the engine cannot be loaded."""
+"""Cardioid, a render engine for Blender. It registers where the engine cannot be loaded too, and says what is missing."""
+
+import atexit
+
+import bpy
+
+from . import core, engine, messages, passes, sessions, settings, ui
 
 bl_info = {
     "name": "Cardioid",
@@ -10,12 +16,6 @@ bl_info = {
     "description": "Path tracing with correct caustics, for files made with Cycles",
     "category": "Render",
 }
-
-import atexit
-
-import bpy
-
-from . import core, engine, messages, passes, sessions, settings, ui
 
 _modules = (messages, sessions, settings, passes, ui, engine)
 

@@ -53,7 +53,8 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
         return
     if not engine.is_preview:
         messages.warn(engine, exported.warnings)
-    target = Target(engine, layer.name, view, frame_size.result_size(scene.render), frame_size.crop(scene.render), wanted)
+    size, area = frame_size.result_size(scene.render), frame_size.crop(scene.render)
+    target = Target(engine, layer.name, view, size, area, wanted)
     entry = {"frame": scene.frame_current, "layer": layer.name, "view": view, "settings": settings,
              "export": exported.timings, "export_seconds": time.monotonic() - start}
     try:

@@ -9,6 +9,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 k_problems_shown = 5
+k_error_is_reported = (4, 5)  # from here on error_set beside a report shows the error twice
 
 _said: set[str] = set()
 
@@ -33,10 +34,11 @@ def warn(engine: bpy.types.RenderEngine, warnings: Iterable[str]) -> None:
 
 
 def fail(engine: bpy.types.RenderEngine, message: str) -> None:
-    """Ends the render with one readable message, in the info bar and over the picture."""
+    """Ends the render with one readable message, in the info bar (and in 3.4 over the picture)."""
     text = f"Cardioid: {message}"
     engine.report({"ERROR"}, text)
-    engine.error_set(text)
+    if bpy.app.version < k_error_is_reported:
+        engine.error_set(text)
 
 
 @persistent

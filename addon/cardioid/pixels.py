@@ -25,7 +25,7 @@ def upload(render_pass: bpy.types.RenderPass, picture: np.ndarray) -> None:
 
 
 def cut(picture: np.ndarray, size: tuple[int, int], area: tuple[int, int, int, int]) -> np.ndarray | None:
-    """The part of `picture` that fills a result of `size`: all of it, or `area` of a whole frame. None: it does not fit."""
+    """The part of `picture` that fills a result of `size`: all of it, or `area` of a whole frame; None: no fit."""
     height, width = picture.shape[:2]
     if (width, height) == size:
         return picture

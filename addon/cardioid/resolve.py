@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From Blender's scene to the engine's Settings: what the user set, what Cycles is set to, what the command line says."""
+"""From Blender's scene to the engine's Settings: the user's values, those that follow Cycles, the command line's."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def resolve(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, overrides: 
 
 
 def _samples(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, values: dict[str, Any]) -> tuple[int, int]:
-    """Samples and the first of them, with the view layer's own count and Cycles' sample subset while following Cycles."""
+    """Samples and the first of them; while following Cycles with the view layer's count and Cycles' sample subset."""
     samples, offset = values["samples"], values["sample_offset"]
     # From 4.5 on Cycles' offset counts only while its sample subset is switched on
     subset = cycles_values.value(scene, "use_sample_subset", None)

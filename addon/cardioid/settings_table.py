@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every render setting in one table: its name in `scene.cardioid`, the artist's words, the Cycles setting that it follows
-and the key of the engine's Settings (engine_cpp/scene/scene_desc.h) that it becomes."""
+"""Every render setting in one table: its name in `scene.cardioid`, the artist's words, the Cycles setting that it
+follows and the key of the engine's Settings (engine_cpp/scene/scene_desc.h) that it becomes."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ k_settings = (
     Setting("samples", "int", "Samples", "Camera paths traced for each pixel. More samples: less noise, longer render",
             4096, "samples", "samples", options={"min": 1, "max": 1 << 24}),
     Setting("time_limit", "float", "Time Limit",
-            "Stop after this time and keep the picture as it is then. Export and scene build are not counted. 0: no limit",
+            "Stop after this time and keep the picture as it is then. Exporting is not counted. 0: no limit",
             0.0, "time_limit", "time_limit", options={"min": 0.0, "step": 100, "unit": "TIME_ABSOLUTE"}),
     Setting("seed", "int", "Seed", "Another seed gives another pattern of noise",
             0, "seed", "seed", options={"min": 0, "max": 2147483647}),
@@ -72,7 +72,8 @@ k_settings = (
              "Largest number of transparent surfaces that a ray passes; counted apart from the other bounces",
              8, "transparent_max_bounces", "max_transparent_bounces"),
     Setting("clamp_direct", "float", "Direct Light",
-            "Brightest value that a direct light path may add. Removes fireflies and real light with them. 0: no clamping",
+            "Brightest value that a direct light path may add. Removes fireflies and real light with them. "
+            "0: no clamping",
             0.0, "sample_clamp_direct", "clamp_direct", options={"min": 0.0, "max": 1e8}),
     Setting("clamp_indirect", "float", "Indirect Light",
             "Brightest value that an indirect light path may add. Removes fireflies and real light with them. "
@@ -106,8 +107,8 @@ k_settings = (
             "for closed models that are very finely meshed or far from the origin",
             False, None, "robust_intersection"),
     Setting("physical_refraction", "bool", "Physical Refraction",
-            "Let light grow brighter as it enters a denser medium, as in nature. Cycles does not: a pool's floor is then "
-            "1.77 times as bright in Cycles as with this",
+            "Change radiance by the square of the ratio of refractive indices where light is refracted, as in nature. "
+            "Cycles does not. Matters for lamps that are inside water or glass and seen from outside",
             False, None, "physical_refraction"),
     Setting("memory_limit", "int", "Memory Limit (MB)",
             "Refuse to start a render that needs more memory than this. 0: the machine's memory",

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shader editor's Add menu.
 
-Up to Blender 4.1 it offers BSDFs, Emission and the outputs to Cycles and EEVEE only. The test for Cycles is one function
-that the menu looks up by name each time it is drawn; while Cardioid is registered it says yes to Cardioid too.
+Up to Blender 4.1 it offers BSDFs, Emission and the outputs to Cycles and EEVEE only. The test for Cycles is one
+function that the menu looks up by name each time it is drawn; while Cardioid is registered it says yes to Cardioid too.
 """
 
 from __future__ import annotations

@@ -14,8 +14,10 @@ k_rays = (("visible_camera", "Camera"), ("visible_diffuse", "Diffuse"), ("visibl
 
 
 def _is_seen(thing: bpy.types.Object | None) -> bool:
-    return thing is not None and (
-        thing.type in k_with_geometry or (thing.instance_type == "COLLECTION" and thing.instance_collection is not None))
+    if thing is None:
+        return False
+    places_collection = thing.instance_type == "COLLECTION" and thing.instance_collection is not None
+    return thing.type in k_with_geometry or places_collection
 
 
 class ObjectPanel(CardioidPanel):

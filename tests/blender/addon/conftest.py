@@ -19,7 +19,7 @@ k_root = Path(__file__).resolve().parents[3]
 k_core = "cardioid._core"
 
 
-def _use_core(module) -> None:
+def use_core(module) -> None:
     """Makes `module` (None: nothing) the engine of the add-on."""
     import cardioid
 
@@ -50,7 +50,7 @@ def fake():
 
     before = sys.modules.get(k_core)
     fake_engine.reset()
-    _use_core(fake_engine)
+    use_core(fake_engine)
     yield fake_engine
     fake_engine.reset()
     if before is None:

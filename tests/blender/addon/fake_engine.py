@@ -145,8 +145,9 @@ class Session:
     def _render(self):
         self._cancel.wait(behaviour.build_seconds)
         self._phase = "render"
-        while self._samples < self.settings["samples"] and not self._cancel.is_set() and not behaviour.fail:
-            self._cancel.wait(behaviour.sample_seconds)
+        while self._samples < self.settings["samples"] and not behaviour.fail:
+            if self._cancel.wait(behaviour.sample_seconds):
+                break
             self._samples += 1
             if behaviour.on_sample:
                 behaviour.on_sample(self)
