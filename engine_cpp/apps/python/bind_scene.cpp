@@ -6,6 +6,8 @@
 #include "scene/scene_file.h"
 #include "scene/validate.h"
 
+#include <pybind11/stl.h>
+
 namespace cardioid::python {
 
 namespace {
