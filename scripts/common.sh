@@ -6,7 +6,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 system_python=/usr/bin/python3   # Debian's own: Blender 3.4.1 runs on it, and the bpy wheels need the same 3.11
 build_dir=$root/build/release
 stage_log_dir=$root/build/logs
-stage_times=()
+# Debian's Blender looks for its Python by the PATH: pyenv, conda or an active venv must not come first.
+export PATH=/usr/sbin:/usr/bin:/sbin:/bin:$PATH
 
 say() { printf '%s\n' "$*"; }
 die() { printf 'cardioid: %s\n' "$*" >&2; exit 1; }
@@ -30,7 +31,6 @@ stage() {
         stage_excerpt "$log" >&2
         die "'$name' failed (exit code $code). The whole log: $log"
     fi
-    stage_times+=("$name: $(elapsed_since "$start") s")
     say "$(elapsed_since "$start") s"
 }
 

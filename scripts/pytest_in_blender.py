@@ -19,7 +19,8 @@ def main() -> int:
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     sys.path[:0] = [str(ROOT / "addon"), str(ROOT / "tests")]
     print(f"Blender {bpy.app.version_string}, Python {sys.version.split()[0]}", flush=True)
-    return int(pytest.main(["-p", "no:cacheprovider", f"--rootdir={ROOT}", *arguments]))
+    options = ["-p", "no:cacheprovider", "-o", "faulthandler_timeout=90", f"--rootdir={ROOT}"]
+    return int(pytest.main([*options, *arguments]))
 
 
 if __name__ == "__main__":

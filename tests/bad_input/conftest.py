@@ -38,7 +38,9 @@ class Blender:
         addons = home / "addons"
         addons.mkdir()
         (addons / "cardioid").symlink_to(ADDON)
-        self.env = {**os.environ, "BLENDER_USER_CONFIG": str(home), "BLENDER_USER_SCRIPTS": str(home)}
+        # Debian's Blender finds its Python by the PATH.
+        path = f"/usr/bin:{os.environ['PATH']}"
+        self.env = {**os.environ, "PATH": path, "BLENDER_USER_CONFIG": str(home), "BLENDER_USER_SCRIPTS": str(home)}
 
     def start(self, *arguments: str | Path, env: dict[str, str] | None = None) -> subprocess.Popen:
         """A running Blender; what it prints can be read from .stdout."""
