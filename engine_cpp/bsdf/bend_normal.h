@@ -6,8 +6,9 @@
 
 namespace cardioid::CD_ISA_NS {
 
-/// n where the reflection of wo about n clears the surface (ng) by min(0.01, 0.9·cos); elsewhere n is turned toward ng, in
-/// their plane, until it just does. All unit; ng on wo's side. Cycles' rule, so that bump-mapped mirrors look the same.
+/// n where the reflection of wo about n clears the surface (ng) by min(0.01, 0.9·cos); elsewhere n is turned toward
+/// ng, in their plane, until it just does. All unit; ng on wo's side. Cycles' rule, so that bump-mapped mirrors look
+/// the same.
 inline Vec3 bend_normal(Vec3 ng, Vec3 wo, Vec3 n) {
     const Float oz = dot(ng, wo);
     const Float least = min(0.9f * oz, 0.01f);

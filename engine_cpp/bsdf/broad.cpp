@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lobes that are sampled over a whole hemisphere: translucent, Burley diffuse, velvet, both sheens; and Oren–Nayar's value.
+// Lobes that are sampled over a whole hemisphere: translucent, Burley diffuse, velvet, both sheens; and Oren–Nayar's
+// value.
 #include "bsdf/broad.h"
 #include "bsdf/diffuse.h"
 
@@ -10,8 +11,8 @@ namespace {
 using bsdf::LobeKind;
 
 /// Fujii's Oren–Nayar: the angular integral of its rough part; G(1) = 0, G(0) = k_fujii.
-constexpr float k_fujii = 0.90412966f;          // π/2 - 2/3
-constexpr float k_fujii_mean = 0.22772844f;     // (2π - 5.6)/3: mean of G
+constexpr float k_fujii = 0.90412966f;       // π/2 - 2/3
+constexpr float k_fujii_mean = 0.22772844f;  // (2π - 5.6)/3: mean of G
 Float fujii_g(Float c) {
     const Float s = safe_sqrt(1.0f - c * c);
     const Float full = s * (acos(c) - 2.0f / 3.0f - s * c) + (2.0f / 3.0f) * (s / max(c, 1e-6f)) * (1.0f - s * s * s);
@@ -36,14 +37,15 @@ Float velvet(Float sigma, Vec3 n, Vec3 wo, Vec3 wi, Float cos_o, Float cos_i) {
     return 0.25f * d * g / max(cos_o, 1e-5f);
 }
 
-/// Microfiber sheen as a linearly transformed cosine (Zeltner, Burley & Chiang 2022): rational fits to the coefficients by
-/// MaterialX (Apache-2.0). x: cosine of wo, y: roughness.
+/// Microfiber sheen as a linearly transformed cosine (Zeltner, Burley & Chiang 2022): rational fits to the
+/// coefficients by MaterialX (Apache-2.0). x: cosine of wo, y: roughness.
 struct SheenCosine {
     Float a, b;
 };
 SheenCosine sheen_cosine(Float x, Float y) {
     return {(2.58126f * x + 0.813703f * y) * y / (1.0f + 0.310327f * x * x + 2.60994f * x * y),
-            safe_sqrt(1.0f - x) * (y - 1.0f) * y * y * y / (0.0000254053f + 1.71228f * x - 1.71506f * x * y + 1.34174f * y * y)};
+            safe_sqrt(1.0f - x) * (y - 1.0f) * y * y * y /
+                (0.0000254053f + 1.71228f * x - 1.71506f * x * y + 1.34174f * y * y)};
 }
 Float sheen_albedo(Float x, Float y) {
     const Float s = y * (0.0206607f + 1.58491f * y) / (0.0379424f + y * (1.32227f + y));
@@ -68,22 +70,23 @@ Value broad_value(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi) {
     const Vec3 n = load3(lobe.normal, i);
     const Float cos_o = dot(n, wo), cos_i = dot(n, wi);
     switch (lobe.kind) {
-    case LobeKind::translucent: return {-cos_i * k_inv_pi, -cos_i * k_inv_pi};
-    case LobeKind::burley: {
-        const Float pdf = cos_i * k_inv_pi;
-        return {pdf * burley(load(lobe.roughness + i), cos_o, cos_i, dot(wo, wi)), pdf};
-    }
-    case LobeKind::velvet: {
-        const Float f = velvet(load(lobe.roughness + i), n, wo, wi, cos_o, cos_i);
-        return {f, Float(0.5f * k_inv_pi)};
-    }
-    case LobeKind::sheen_v1: return {schlick_factor(safe_sqrt(0.5f + 0.5f * dot(wo, wi))) * cos_i, cos_i * k_inv_pi};
-    case LobeKind::sheen: {
-        const Float x = saturate(cos_o), y = roughness_of_sheen(lobe, i);
-        const Float pdf = sheen_density(sheen_cosine(x, y), Frame(n, wo).to_local(wi));
-        return {pdf * sheen_albedo(x, y), pdf};
-    }
-    default: return {Float(0.0f), Float(0.0f)};
+        case LobeKind::translucent: return {-cos_i * k_inv_pi, -cos_i * k_inv_pi};
+        case LobeKind::burley: {
+            const Float pdf = cos_i * k_inv_pi;
+            return {pdf * burley(load(lobe.roughness + i), cos_o, cos_i, dot(wo, wi)), pdf};
+        }
+        case LobeKind::velvet: {
+            const Float f = velvet(load(lobe.roughness + i), n, wo, wi, cos_o, cos_i);
+            return {f, Float(0.5f * k_inv_pi)};
+        }
+        case LobeKind::sheen_v1:
+            return {schlick_factor(safe_sqrt(0.5f + 0.5f * dot(wo, wi))) * cos_i, cos_i * k_inv_pi};
+        case LobeKind::sheen: {
+            const Float x = saturate(cos_o), y = roughness_of_sheen(lobe, i);
+            const Float pdf = sheen_density(sheen_cosine(x, y), Frame(n, wo).to_local(wi));
+            return {pdf * sheen_albedo(x, y), pdf};
+        }
+        default: return {Float(0.0f), Float(0.0f)};
     }
 }
 
@@ -100,19 +103,19 @@ Vec3 broad_direction(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 u) {
     const Vec3 n = load3(lobe.normal, i);
     Float s, c, cosine;
     switch (lobe.kind) {
-    case LobeKind::translucent: return sample_cosine(-n, u.x, u.y, cosine);
-    case LobeKind::velvet: {
-        sincos(k_two_pi * u.y, s, c);
-        const Float r = safe_sqrt(1.0f - u.x * u.x);
-        return Frame(n).to_world({r * c, r * s, u.x});
-    }
-    case LobeKind::sheen: {
-        const SheenCosine k = sheen_cosine(saturate(dot(n, wo)), roughness_of_sheen(lobe, i));
-        sincos(k_two_pi * u.y, s, c);
-        const Float r = sqrt(u.x), z = sqrt(1.0f - u.x);
-        return Frame(n, wo).to_world(normalize(Vec3{fma(r, c, -(z * k.b)), r * s, z * k.a}));
-    }
-    default: return sample_cosine(n, u.x, u.y, cosine);
+        case LobeKind::translucent: return sample_cosine(-n, u.x, u.y, cosine);
+        case LobeKind::velvet: {
+            sincos(k_two_pi * u.y, s, c);
+            const Float r = safe_sqrt(1.0f - u.x * u.x);
+            return Frame(n).to_world({r * c, r * s, u.x});
+        }
+        case LobeKind::sheen: {
+            const SheenCosine k = sheen_cosine(saturate(dot(n, wo)), roughness_of_sheen(lobe, i));
+            sincos(k_two_pi * u.y, s, c);
+            const Float r = sqrt(u.x), z = sqrt(1.0f - u.x);
+            return Frame(n, wo).to_world(normalize(Vec3{fma(r, c, -(z * k.b)), r * s, z * k.a}));
+        }
+        default: return sample_cosine(n, u.x, u.y, cosine);
     }
 }
 
@@ -131,7 +134,8 @@ Spectrum oren_nayar(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Float cosin
     const Float loss_mean = a * sigma * (k_fujii - k_fujii_mean);
     const Float loss = a * sigma * (k_fujii - fujii_g(cos_o)) * (k_fujii - fujii_g(cos_i)) / (k_fujii - k_fujii_mean);
     const Spectrum albedo = saturate(load_rgb(lobe.f0, i));
-    const Spectrum multiple = divide(albedo * albedo * ((1.0f - loss_mean) * k_inv_pi * loss), one_minus(albedo * loss_mean));
+    const Spectrum multiple =
+        divide(albedo * albedo * ((1.0f - loss_mean) * k_inv_pi * loss), one_minus(albedo * loss_mean));
     return weight * ((Spectrum(max(single, 0.0f)) + multiple) * cos_i);
 }
 
@@ -146,17 +150,22 @@ LobeSample sample_broad(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u,
     const Mask ok = active & broad_domain(lobe, i, wo, wi, ng);
     const Value v = broad_value(lobe, i, wo, wi);
     const Mask transmitted = lobe.kind == LobeKind::translucent ? ok : mask_of(false);
-    return {wi, load_rgb(lobe.weight, i) * select(ok, v.f_cos, Float(0.0f)), select(ok, v.pdf, Float(0.0f)), ok,
-            mask_of(false), transmitted, Float(1.0f)};
+    return {wi,
+            load_rgb(lobe.weight, i) * select(ok, v.f_cos, Float(0.0f)),
+            select(ok, v.pdf, Float(0.0f)),
+            ok,
+            mask_of(false),
+            transmitted,
+            Float(1.0f)};
 }
 
 Float broad_albedo(const bsdf::Lobe& lobe, int i, Vec3 wo) {
     const Float x = saturate(dot(load3(lobe.normal, i), wo));
     switch (lobe.kind) {
-    case LobeKind::sheen: return sheen_albedo(x, roughness_of_sheen(lobe, i));
-    // 3.4's own estimate: the value at the mirror direction of the normal.
-    case LobeKind::sheen_v1: return schlick_factor(x) * x;
-    default: return Float(1.0f);
+        case LobeKind::sheen: return sheen_albedo(x, roughness_of_sheen(lobe, i));
+        // 3.4's own estimate: the value at the mirror direction of the normal.
+        case LobeKind::sheen_v1: return schlick_factor(x) * x;
+        default: return Float(1.0f);
     }
 }
 

@@ -18,8 +18,8 @@ inline Spectrum max(Spectrum a, Float b) { return {max(a.r, b), max(a.g, b), max
 inline Float schlick_factor(Float c) { return pow5(saturate(1.0f - c)); }
 
 struct DielectricTerm {
-    Float reflect;   ///< unpolarised reflectance
-    Float cos_t;     ///< cosine of the refracted direction, ≥ 0; 0 at total reflection
+    Float reflect;  ///< unpolarised reflectance
+    Float cos_t;    ///< cosine of the refracted direction, ≥ 0; 0 at total reflection
 };
 
 /// eta: index behind the surface over the index in front of it.
@@ -42,8 +42,8 @@ inline Float schlick_position(Float f, Float eta) {
     return saturate((f - f0) / max(1.0f - f0, 1e-6f));
 }
 
-/// Kutz et al. 2021 ("Novel aspects of the Adobe Standard Material"): the factor of -c(1-c)^6 that scales Schlick's value
-/// at cos = 1/7 by `tint`.
+/// Kutz et al. 2021 ("Novel aspects of the Adobe Standard Material"): the factor of -c(1-c)^6 that scales Schlick's
+/// value at cos = 1/7 by `tint`.
 inline Spectrum f82_factor(Spectrum f0, Spectrum tint) {
     constexpr float f = 6.0f / 7.0f, f5 = f * f * f * f * f;
     return mix(f0, Spectrum(1.0f), f5) * (7.0f / (f5 * f)) * one_minus(tint);
@@ -72,16 +72,16 @@ inline Spectrum fresnel_conductor(Float c, Spectrum n, Spectrum k) {
 inline Spectrum reflectance(const bsdf::Lobe& lobe, int i, Float c) {
     using bsdf::Fresnel;
     switch (lobe.fresnel) {
-    case Fresnel::none: return Spectrum(1.0f);
-    case Fresnel::dielectric: return Spectrum(fresnel_dielectric(c, load(lobe.eta + i)).reflect);
-    case Fresnel::schlick:
-    case Fresnel::principled_v1: {
-        const Float eta = load(lobe.eta + i);
-        const Float s = schlick_position(fresnel_dielectric(c, eta).reflect, eta);
-        return mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), s);
-    }
-    case Fresnel::f82: return fresnel_f82(c, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
-    case Fresnel::conductor: return fresnel_conductor(c, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
+        case Fresnel::none: return Spectrum(1.0f);
+        case Fresnel::dielectric: return Spectrum(fresnel_dielectric(c, load(lobe.eta + i)).reflect);
+        case Fresnel::schlick:
+        case Fresnel::principled_v1: {
+            const Float eta = load(lobe.eta + i);
+            const Float s = schlick_position(fresnel_dielectric(c, eta).reflect, eta);
+            return mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), s);
+        }
+        case Fresnel::f82: return fresnel_f82(c, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
+        case Fresnel::conductor: return fresnel_conductor(c, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
     }
     return Spectrum(0.0f);
 }
@@ -97,13 +97,16 @@ inline InterfaceTerm interface_term(const bsdf::Lobe& lobe, int i, Float c) {
     const Float eta = load(lobe.eta + i);
     const DielectricTerm d = fresnel_dielectric(c, eta);
     if (lobe.kind == bsdf::LobeKind::ggx_refraction) {
-        const Float through = lobe.fresnel == Fresnel::none ? select(d.cos_t > Float(0.0f), Float(1.0f), Float(0.0f)) : 1.0f - d.reflect;
+        const Float through =
+            lobe.fresnel == Fresnel::none ? select(d.cos_t > Float(0.0f), Float(1.0f), Float(0.0f)) : 1.0f - d.reflect;
         return {Spectrum(0.0f), Spectrum(through), d.cos_t};
     }
     const bool remapped = lobe.fresnel == Fresnel::schlick || lobe.fresnel == Fresnel::principled_v1;
-    const Spectrum f = remapped ? saturate(mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), schlick_position(d.reflect, eta)))
-                                : Spectrum(d.reflect);
-    const Spectrum t = select(d.cos_t > Float(0.0f), one_minus(f) * load_rgb(lobe.tint_transmission, i), Spectrum(0.0f));
+    const Spectrum f =
+        remapped ? saturate(mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), schlick_position(d.reflect, eta)))
+                 : Spectrum(d.reflect);
+    const Spectrum t =
+        select(d.cos_t > Float(0.0f), one_minus(f) * load_rgb(lobe.tint_transmission, i), Spectrum(0.0f));
     return {f, t, d.cos_t};
 }
 

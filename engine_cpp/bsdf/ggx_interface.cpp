@@ -18,22 +18,21 @@ Float reflect_chance(const InterfaceTerm& t) {
     return select(all_parts > Float(0.0f), r / max(all_parts, 1e-30f), Float(0.0f));
 }
 
-struct Terms {
-    Float f_cos, pdf;
-};
 /// f·cos and density for facet h, over the Fresnel part and the chance of choosing it.
-Terms facet_terms(const GgxPoint& p, Vec3 in, Vec3 h, Float eta, Mask refracted) {
+FacetTerms facet_terms(const GgxPoint& p, Vec3 in, Vec3 h, Float eta, Mask refracted) {
     const Float oh = abs(dot(p.o, h)), ih = abs(dot(in, h));
     // Along h: |o + eta·in| = |oh - eta·ih|, the length before normalising; o and in lie on opposite sides.
     const Float jacobian = select(refracted, sqr(eta) * oh * ih / max(sqr(oh - eta * ih), 1e-30f), Float(0.25f));
     const Float d = p.ggx.d(h) * jacobian;
     const Float iz = abs(in.z);
-    return {2.0f * d * iz / max(p.stretch_o * iz + p.ggx.stretch(in) * p.o.z, 1e-30f), 2.0f * d / (p.o.z + p.stretch_o)};
+    return {2.0f * d * iz / max(p.stretch_o * iz + p.ggx.stretch(in) * p.o.z, 1e-30f),
+            2.0f * d / (p.o.z + p.stretch_o)};
 }
 
 }  // namespace
 
 LobeEval eval_ggx_interface(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
+    if (all(ggx_is_delta(lobe, i))) return {Spectrum(0.0f), Float(0.0f)};
     const GgxPoint p = ggx_point(lobe, i, wo);
     const Float eta = load(lobe.eta + i), zero = 0.0f;
     const Vec3 in = p.frame.to_local(wi);
@@ -47,7 +46,7 @@ LobeEval eval_ggx_interface(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec
     if (none(ok)) return {Spectrum(0.0f), zero};
     const InterfaceTerm fr = interface_term(lobe, i, saturate(oh));
     const Float chance = reflect_chance(fr);
-    const Terms t = facet_terms(p, in, h, eta, refracted);
+    const FacetTerms t = facet_terms(p, in, h, eta, refracted);
     const Spectrum f = select(refracted, fr.transmit, fr.reflect) * weight_of(lobe, i, wo) * t.f_cos;
     const Float pdf = t.pdf * select(refracted, 1.0f - chance, chance);
     return {select(ok, f, Spectrum(0.0f)), select(ok, pdf, zero)};
@@ -56,7 +55,7 @@ LobeEval eval_ggx_interface(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec
 LobeSample sample_ggx_interface(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active) {
     const GgxPoint p = ggx_point(lobe, i, wo);
     const Float eta = load(lobe.eta + i), zero = 0.0f;
-    const Vec3 h = select(p.delta, Vec3{0.0f, 0.0f, 1.0f}, p.ggx.sample_visible(p.o, u.x, u.y));
+    const Vec3 h = sample_facet(p, u);
     const Float oh = dot(p.o, h);
     const InterfaceTerm fr = interface_term(lobe, i, saturate(oh));
     const Float chance = reflect_chance(fr);
@@ -68,11 +67,15 @@ LobeSample sample_ggx_interface(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng,
     const Spectrum part = select(refracted, fr.transmit, fr.reflect);
     const Mask right_side = ((in.z < zero) ^ ~refracted) & ((dot(ng, wi) * in.z) > zero);
     const Mask ok = active & (p.o.z > zero) & right_side & (max_component(part) > zero);
-    const Terms t = facet_terms(p, in, h, eta, refracted);
-    const Float value = select(p.delta, Float(1.0f), t.f_cos);
-    const Float pdf = select(p.delta, Float(1.0f), t.pdf) * select(refracted, 1.0f - chance, chance);
-    const Spectrum f = part * weight_of(lobe, i, wo) * value;
-    return {wi, select(ok, f, Spectrum(0.0f)), select(ok, pdf, zero), ok, ok & p.delta, ok & refracted,
+    const FacetTerms t = sample_terms(p, [&] { return facet_terms(p, in, h, eta, refracted); });
+    const Float pdf = t.pdf * select(refracted, 1.0f - chance, chance);
+    const Spectrum f = part * weight_of(lobe, i, wo) * t.f_cos;
+    return {wi,
+            select(ok, f, Spectrum(0.0f)),
+            select(ok, pdf, zero),
+            ok,
+            ok & p.delta,
+            ok & refracted,
             select(refracted, eta, Float(1.0f))};
 }
 

@@ -12,10 +12,7 @@ Spectrum weight_of(const bsdf::Lobe& lobe, int i, Vec3 wo) {
 }
 
 /// f·cos = F·D·G2/(4 o.z) and its density D·G1/(4 o.z), both over F.
-struct Reflection {
-    Float f_cos, pdf;
-};
-Reflection reflect_terms(const GgxPoint& p, Vec3 in, Vec3 h) {
+FacetTerms reflect_terms(const GgxPoint& p, Vec3 in, Vec3 h) {
     const Float d = p.ggx.d(h);
     const Float stretch_i = p.ggx.stretch(in);
     return {0.5f * d * in.z / max(p.stretch_o * in.z + stretch_i * p.o.z, 1e-30f), 0.5f * d / (p.o.z + p.stretch_o)};
@@ -24,13 +21,14 @@ Reflection reflect_terms(const GgxPoint& p, Vec3 in, Vec3 h) {
 }  // namespace
 
 LobeEval eval_ggx_reflection(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
+    if (all(ggx_is_delta(lobe, i))) return {Spectrum(0.0f), Float(0.0f)};
     const GgxPoint p = ggx_point(lobe, i, wo);
     const Vec3 in = p.frame.to_local(wi);
     const Vec3 h = normalize(p.o + in);
     const Float zero = 0.0f;
     const Mask ok = (p.o.z > zero) & (in.z > zero) & (dot(ng, wi) > zero) & ~p.delta;
     if (none(ok)) return {Spectrum(0.0f), zero};
-    const Reflection t = reflect_terms(p, in, h);
+    const FacetTerms t = reflect_terms(p, in, h);
     const Spectrum f = reflectance(lobe, i, saturate(dot(p.o, h))) * weight_of(lobe, i, wo) * t.f_cos;
     return {select(ok, f, Spectrum(0.0f)), select(ok, t.pdf, zero)};
 }
@@ -38,15 +36,14 @@ LobeEval eval_ggx_reflection(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Ve
 LobeSample sample_ggx_reflection(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active) {
     const GgxPoint p = ggx_point(lobe, i, wo);
     const Float zero = 0.0f;
-    const Vec3 h = select(p.delta, Vec3{0.0f, 0.0f, 1.0f}, p.ggx.sample_visible(p.o, u.x, u.y));
+    const Vec3 h = sample_facet(p, u);
     const Float oh = dot(p.o, h);
     const Vec3 in = h * (2.0f * oh) - p.o;
     const Vec3 wi = p.frame.to_world(in);
     const Mask ok = active & (p.o.z > zero) & (in.z > zero) & (dot(ng, wi) > zero);
-    const Reflection t = reflect_terms(p, in, h);
-    const Float value = select(p.delta, Float(1.0f), t.f_cos), pdf = select(p.delta, Float(1.0f), t.pdf);
-    const Spectrum f = reflectance(lobe, i, saturate(oh)) * weight_of(lobe, i, wo) * value;
-    return {wi, select(ok, f, Spectrum(0.0f)), select(ok, pdf, zero), ok, ok & p.delta, mask_of(false), Float(1.0f)};
+    const FacetTerms t = sample_terms(p, [&] { return reflect_terms(p, in, h); });
+    const Spectrum f = reflectance(lobe, i, saturate(oh)) * weight_of(lobe, i, wo) * t.f_cos;
+    return {wi, select(ok, f, Spectrum(0.0f)), select(ok, t.pdf, zero), ok, ok & p.delta, mask_of(false), Float(1.0f)};
 }
 
 }  // namespace cardioid::CD_ISA_NS

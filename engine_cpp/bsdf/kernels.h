@@ -15,11 +15,11 @@ namespace cardioid::CD_ISA_NS {
 inline LobeEval eval_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
     using bsdf::LobeKind;
     switch (lobe.kind) {
-    case LobeKind::diffuse: return eval_diffuse(lobe, i, wo, wi, ng);
-    case LobeKind::ggx_reflection: return eval_ggx_reflection(lobe, i, wo, wi, ng);
-    case LobeKind::ggx_refraction:
-    case LobeKind::ggx_glass: return eval_ggx_interface(lobe, i, wo, wi, ng);
-    default: return eval_broad(lobe, i, wo, wi, ng);
+        case LobeKind::diffuse: return eval_diffuse(lobe, i, wo, wi, ng);
+        case LobeKind::ggx_reflection: return eval_ggx_reflection(lobe, i, wo, wi, ng);
+        case LobeKind::ggx_refraction:
+        case LobeKind::ggx_glass: return eval_ggx_interface(lobe, i, wo, wi, ng);
+        default: return eval_broad(lobe, i, wo, wi, ng);
     }
 }
 
@@ -27,11 +27,11 @@ inline LobeEval eval_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 
 inline LobeSample sample_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active) {
     using bsdf::LobeKind;
     switch (lobe.kind) {
-    case LobeKind::diffuse: return sample_diffuse(lobe, i, wo, ng, u, active);
-    case LobeKind::ggx_reflection: return sample_ggx_reflection(lobe, i, wo, ng, u, active);
-    case LobeKind::ggx_refraction:
-    case LobeKind::ggx_glass: return sample_ggx_interface(lobe, i, wo, ng, u, active);
-    default: return sample_broad(lobe, i, wo, ng, u, active);
+        case LobeKind::diffuse: return sample_diffuse(lobe, i, wo, ng, u, active);
+        case LobeKind::ggx_reflection: return sample_ggx_reflection(lobe, i, wo, ng, u, active);
+        case LobeKind::ggx_refraction:
+        case LobeKind::ggx_glass: return sample_ggx_interface(lobe, i, wo, ng, u, active);
+        default: return sample_broad(lobe, i, wo, ng, u, active);
     }
 }
 

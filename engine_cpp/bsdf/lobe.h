@@ -10,43 +10,44 @@
 namespace cardioid::bsdf {
 
 enum class LobeKind : std::uint8_t {
-    diffuse,          ///< Lambert, or Oren–Nayar where `roughness` > 0
-    translucent,      ///< Lambert on the other side
-    ggx_reflection,   ///< microfacet reflection with `fresnel`
-    ggx_refraction,   ///< microfacet refraction alone; Fresnel::none: all but total reflection passes, dielectric: × (1 - F)
-    ggx_glass,        ///< reflection weight·F and refraction weight·tint_transmission·(1 - F); none acts as dielectric
-    sheen,            ///< microfiber sheen of Principled v2 and of the Sheen BSDF; its albedo is part of the lobe
-    burley,           ///< diffuse part of 3.4's Principled (Disney diffuse), `roughness` is Principled's
-    velvet,           ///< 3.4's Velvet BSDF, `roughness` is its sigma
-    sheen_v1,         ///< sheen of 3.4's Principled
+    diffuse,         ///< Lambert, or Oren–Nayar where `roughness` > 0
+    translucent,     ///< Lambert on the other side
+    ggx_reflection,  ///< microfacet reflection with `fresnel`
+    ggx_refraction,  ///< microfacet refraction alone: × (1 - F) with Fresnel::dielectric, else all that can pass
+    ggx_glass,  ///< reflection weight·F and refraction weight·tint_transmission·(1 - F); none acts as dielectric
+    sheen,      ///< microfiber sheen of Principled v2 and of the Sheen BSDF; its albedo is part of the lobe
+    burley,     ///< diffuse part of 3.4's Principled (Disney diffuse), `roughness` is Principled's
+    velvet,     ///< 3.4's Velvet BSDF, `roughness` is its sigma
+    sheen_v1,   ///< sheen of 3.4's Principled
 };
 
 enum class Fresnel : std::uint8_t {
-    none,             ///< 1 everywhere (Glossy BSDF)
-    dielectric,       ///< real eta
-    schlick,          ///< f0 + (f90 - f0)·s, s the exact dielectric term rescaled (Principled v2's generalized Schlick)
-    f82,              ///< metal: f0, and in `f90` the tint at 82° that multiplies Schlick's value there
-    principled_v1,    ///< 3.4's Principled specular: dielectric term between f0 and f90 (the same formula as schlick)
-    conductor,        ///< metal by index: f0 = n, f90 = k per channel (Metallic BSDF)
+    none,           ///< 1 everywhere (Glossy BSDF)
+    dielectric,     ///< real eta
+    schlick,        ///< f0 + (f90 - f0)·s, s the exact dielectric term rescaled (Principled v2's generalized Schlick)
+    f82,            ///< metal: f0, and in `f90` the tint at 82° that multiplies Schlick's value there
+    principled_v1,  ///< 3.4's Principled specular: dielectric term between f0 and f90 (the same formula as schlick)
+    conductor,      ///< metal by index: f0 = n, f90 = k per channel (Metallic BSDF)
 };
 
 /// Rows that a kind does not use stay untouched. alpha = roughness² (Blender's roughness).
 struct alignas(64) Lobe {
     LobeKind kind = LobeKind::diffuse;
     Fresnel fresnel = Fresnel::none;
-    /// GGX reflection and glass: compensate for scattering between facets (multiscatter GGX). Diffuse with roughness > 0:
-    /// the energy-preserving Oren–Nayar of Blender 4.3 and later (off: the one before).
+    /// GGX reflection and glass: compensate for scattering between facets (multiscatter GGX). Diffuse with roughness
+    /// > 0: the energy-preserving Oren–Nayar of Blender 4.3 and later (off: the one before).
     bool preserve_energy = false;
-    Row weight[3];                  ///< throughput weight, 0 where the lobe is absent in a lane
-    Row normal[3];                  ///< unit, on the side of wo after bending (bump and normal maps applied)
-    Row roughness;                  ///< diffuse: Oren–Nayar sigma in [0,1]; sheen, burley, velvet: see LobeKind
-    Row tangent[3];                 ///< ggx: direction of alpha_x where alpha_x ≠ alpha_y; need not be unit or orthogonal
-    Row alpha_x, alpha_y;           ///< ggx; both at or under k_delta_alpha: the lane is a perfect mirror or window
-    Row eta;                        ///< relative index of refraction inside/outside for the side that wo is on
-    /// Colours at normal and grazing incidence (see Fresnel). With preserve_energy, f0 is the surface colour that `weight`
-    /// already contains (it darkens repeated bounces) for diffuse, Fresnel::none, and glass with Fresnel::dielectric.
+    Row weight[3];         ///< throughput weight, 0 where the lobe is absent in a lane
+    Row normal[3];         ///< unit, on the side of wo after bending (bump and normal maps applied)
+    Row roughness;         ///< diffuse: Oren–Nayar sigma in [0,1]; sheen, burley, velvet: see LobeKind
+    Row tangent[3];        ///< ggx: direction of alpha_x where alpha_x ≠ alpha_y; need not be unit or orthogonal
+    Row alpha_x, alpha_y;  ///< ggx; both at or under k_delta_alpha: the lane is a perfect mirror or window
+    Row eta;               ///< relative index of refraction inside/outside for the side that wo is on
+    /// Colours at normal and grazing incidence (see Fresnel). With preserve_energy, f0 is the surface colour that
+    /// `weight` already contains (it darkens repeated bounces) for diffuse, Fresnel::none, and glass with
+    /// Fresnel::dielectric.
     Row f0[3], f90[3];
-    Row tint_transmission[3];       ///< glass: factor of the transmitted part, on top of weight
+    Row tint_transmission[3];  ///< glass: factor of the transmitted part, on top of weight
 };
 
 /// At or under this alpha a GGX lane is a delta.

@@ -13,10 +13,10 @@ struct LobeEval {
 
 struct LobeSample {
     Vec3 wi;
-    Spectrum f_cos;     ///< weight·f·|cos|; for delta lanes: weight·f such that throughput *= f_cos/pdf
-    Float pdf;          ///< solid angle; for delta lanes the discrete probability
+    Spectrum f_cos;  ///< weight·f·|cos|; for delta lanes: weight·f such that throughput *= f_cos/pdf
+    Float pdf;       ///< solid angle; for delta lanes the discrete probability
     Mask valid, delta, transmitted;
-    Float eta;          ///< 1 for reflection; the relative index passed through for refraction
+    Float eta;  ///< 1 for reflection; the relative index passed through for refraction
 };
 
 }  // namespace cardioid::CD_ISA_NS

@@ -150,7 +150,8 @@ Table means(const Table& table, int n) {
 
 void write(std::FILE* file, const char* name, const Table& table) {
     std::fprintf(file, "const float %s[%zu] = {", name, table.size());
-    for (std::size_t k = 0; k < table.size(); ++k) std::fprintf(file, "%s%.8ef", k == 0 ? "" : k % 8 == 0 ? ",\n" : ", ", std::max(table[k], 1e-30));
+    for (std::size_t k = 0; k < table.size(); ++k)
+        std::fprintf(file, "%s%.8ef", k == 0 ? "" : k % 8 == 0 ? ",\n" : ", ", std::max(table[k], 1e-30));
     std::fprintf(file, "};\n\n");
 }
 
@@ -169,7 +170,8 @@ int main(int argc, char** argv) {
     const Table glass = table3(k_glass_size, glass_albedo);
     write(file, "k_glass_albedo", glass);
     write(file, "k_glass_mean_albedo", means(glass, k_glass_size));
-    const Table inverse = table3(k_glass_size, [](double alpha, double mu, double eta) { return glass_albedo(alpha, mu, 1 / eta); });
+    const Table inverse =
+        table3(k_glass_size, [](double alpha, double mu, double eta) { return glass_albedo(alpha, mu, 1 / eta); });
     write(file, "k_glass_albedo_inverse", inverse);
     write(file, "k_glass_mean_albedo_inverse", means(inverse, k_glass_size));
     write(file, "k_schlick_dielectric", table3(k_glass_size, [](double alpha, double mu, double eta) {

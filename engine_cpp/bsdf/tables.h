@@ -6,10 +6,11 @@
 
 namespace cardioid::bsdf {
 
-inline constexpr int k_albedo_size = 32;      ///< axes of the reflection tables
-inline constexpr int k_glass_size = 16;       ///< axes of the tables that depend on the index
+inline constexpr int k_albedo_size = 32;  ///< axes of the reflection tables
+inline constexpr int k_glass_size = 16;   ///< axes of the tables that depend on the index
 
-/// Single-scattering albedo of GGX reflection with Fresnel 1, (r, m); and its cosine-weighted mean over directions, (r).
+/// Single-scattering albedo of GGX reflection with Fresnel 1, (r, m); and its cosine-weighted mean over directions,
+/// (r).
 extern const float k_ggx_albedo[k_albedo_size * k_albedo_size];
 extern const float k_ggx_mean_albedo[k_albedo_size];
 

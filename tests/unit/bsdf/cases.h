@@ -60,11 +60,13 @@ inline std::vector<Model> all_models() {
 inline std::vector<Case> all_cases() {
     std::vector<Case> out;
     for (const Model& m : all_models())
-        for (const float c : {0.95f, 0.5f, 0.12f}) out.push_back({m, direction(c, 1 + 4 * c), m.name + ", cos " + std::to_string(c)});
+        for (const float c : {0.95f, 0.5f, 0.12f})
+            out.push_back({m, direction(c, 1 + 4 * c), m.name + ", cos " + std::to_string(c)});
     // The geometric normal cuts off part of the hemisphere.
     for (const auto kind : {bsdf::LobeKind::diffuse, bsdf::LobeKind::ggx_reflection, bsdf::LobeKind::ggx_glass}) {
         const Vec3 wo = direction(0.5f, 0.3f);
-        out.push_back({model_of("bent", lobe_of(kind, 0.6f), direction(0.9f, 2.0f)), wo, "bent " + std::to_string(static_cast<int>(kind))});
+        out.push_back({model_of("bent", lobe_of(kind, 0.6f), direction(0.9f, 2.0f)), wo,
+                       "bent " + std::to_string(static_cast<int>(kind))});
     }
     return out;
 }

@@ -25,9 +25,10 @@ inline statistics::Chi2Result chi2_of(const Model& m, Vec3 wo, int n, std::uint3
     const double drawn = (n + W - 1) / W * W;
     const CellIntegrator integrate(m.eval, wo, 2e-7, 1e-4);
     double total = 0;
-    for (int k = 0; k < grid.cells(); ++k) total += expected[static_cast<std::size_t>(k)] = drawn * integrate.cell(grid, k).pdf;
-    // Edges of the domain are integrated to about 1e-4: a difference inside that is none. A density that integrates to more
-    // than 1 leaves a negative count here, which chi2_test rejects.
+    for (int k = 0; k < grid.cells(); ++k)
+        total += expected[static_cast<std::size_t>(k)] = drawn * integrate.cell(grid, k).pdf;
+    // Edges of the domain are integrated to about 1e-4: a difference inside that is none. A density that integrates
+    // to more than 1 leaves a negative count here, which chi2_test rejects.
     const double lost = drawn - total, error = 2e-4 * drawn;
     expected.back() = lost + std::clamp(observed.back() - lost, -error, error);
     return statistics::chi2_test(observed, expected);

@@ -31,7 +31,8 @@ inline void fill3(Row (&rows)[3], float x, float y, float z) {
 }
 
 /// A lobe with the same parameters in all lanes: weight 1, normal z, isotropic.
-inline bsdf::Lobe lobe_of(bsdf::LobeKind kind, float roughness, bsdf::Fresnel fresnel = bsdf::Fresnel::none, float eta = 1.5f) {
+inline bsdf::Lobe lobe_of(bsdf::LobeKind kind, float roughness, bsdf::Fresnel fresnel = bsdf::Fresnel::none,
+                          float eta = 1.5f) {
     bsdf::Lobe l;
     l.kind = kind;
     l.fresnel = fresnel;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energy: no lobe returns more than it gets; Lambert, deltas and compensated lobes return exactly what they get. The tables'
-// errors are part of the bounds and are measured here.
+// Energy: no lobe returns more than it gets; Lambert, deltas and compensated lobes return exactly what they get. The
+// tables' errors are part of the bounds and are measured here.
 #include "cases.h"
 #include "lobe_tests.h"
 
@@ -17,8 +17,10 @@ constexpr int k_draws = 16384;
 TEST(Furnace, NoLobeGainsEnergy) {
     for (const Model& m : all_models())
         for (const float c : {0.98f, 0.8f, 0.5f, 0.25f, 0.1f}) {
-            // Burley's diffuse gains up to some per cent by its definition, velvet and 3.4's sheen are not bounded at all.
-            if (m.name.starts_with("burley") || m.name.starts_with("velvet") || m.name.starts_with("sheen_v1")) continue;
+            // Burley's diffuse gains up to some per cent by its definition, velvet and 3.4's sheen are not bounded at
+            // all.
+            if (m.name.starts_with("burley") || m.name.starts_with("velvet") || m.name.starts_with("sheen_v1"))
+                continue;
             const statistics::Moments a = furnace(m, direction(c, 0.5f), k_draws, 1);
             EXPECT_LE(a.mean - 3 * std::sqrt(a.variance_of_mean()), 1.01) << m.name << " at " << c;
         }
@@ -66,7 +68,9 @@ TEST(Furnace, CompensatedGlass) {
     for (const float eta : {1.5f, 1.33f, 2.4f, 1 / 1.5f, 1 / 1.33f}) {
         const auto lobe = [eta](float r) { return compensated(LobeKind::ggx_glass, r, Fresnel::dielectric, eta); };
         EXPECT_LT(worst_loss(lobe, true, "glass"), 0.01) << eta;
-        const auto off = [eta](float r) { return compensated(LobeKind::ggx_glass, r, Fresnel::dielectric, eta, false); };
+        const auto off = [eta](float r) {
+            return compensated(LobeKind::ggx_glass, r, Fresnel::dielectric, eta, false);
+        };
         EXPECT_GT(worst_loss(off, false, ""), 0.1) << eta;
     }
 }
@@ -76,7 +80,8 @@ TEST(Furnace, SheenReturnsItsAlbedo) {
         for (const float c : {1.0f, 0.6f, 0.2f, 0.05f}) {
             const bsdf::Lobe l = lobe_of(LobeKind::sheen, r);
             const Vec3 wo = direction(c, 0.5f);
-            EXPECT_NEAR(furnace(model_of("", l), wo, k_draws, 3).mean, lobe_albedo(l, 0, wo).r[0], 1e-4) << r << " " << c;
+            EXPECT_NEAR(furnace(model_of("", l), wo, k_draws, 3).mean, lobe_albedo(l, 0, wo).r[0], 1e-4)
+                << r << " " << c;
         }
 }
 
@@ -88,7 +93,8 @@ TEST(Albedo, OfCompensatedReflectionIsWhatSamplingFinds) {
             fill3(schlick.f0, 0.04f, 0.04f, 0.04f);
             bsdf::Lobe metal = compensated(LobeKind::ggx_reflection, r, Fresnel::f82, 1);
             fill3(metal.f0, 0.9f, 0.9f, 0.9f);
-            for (const bsdf::Lobe& l : {schlick, metal, compensated(LobeKind::ggx_reflection, r, Fresnel::dielectric, 1.33f)}) {
+            for (const bsdf::Lobe& l :
+                 {schlick, metal, compensated(LobeKind::ggx_reflection, r, Fresnel::dielectric, 1.33f)}) {
                 const Vec3 wo = direction(c, 0.5f);
                 const double sampled = furnace(model_of("", l), wo, k_draws, 4).mean;
                 worst = std::max(worst, std::abs(sampled - static_cast<double>(lobe_albedo(l, 0, wo).r[0])));

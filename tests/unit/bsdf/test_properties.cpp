@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Properties that every lobe has: sample and eval agree, f > 0 exactly where pdf > 0, reciprocity, finite at grazing angles,
-// nothing through the geometric normal's wrong side; deltas; classes.
+// Properties that every lobe has: sample and eval agree, f > 0 exactly where pdf > 0, reciprocity, finite at grazing
+// angles, nothing through the geometric normal's wrong side; deltas; classes.
 #include "cases.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,9 @@ using bsdf::LobeKind;
 const Vec3 k_up = {0.0f, 0.0f, 1.0f};
 
 bool finite_and_positive(Float x) { return all(is_finite(x) & (x >= Float(0.0f))); }
-bool finite_and_positive(Spectrum s) { return finite_and_positive(s.r) && finite_and_positive(s.g) && finite_and_positive(s.b); }
+bool finite_and_positive(Spectrum s) {
+    return finite_and_positive(s.r) && finite_and_positive(s.g) && finite_and_positive(s.b);
+}
 
 /// Uniform on the sphere.
 Vec3 random_direction(Uniform& u) {
@@ -92,7 +94,8 @@ TEST(Properties, PositiveTogetherRejectsAPdfBelowTheHorizon) {
     EXPECT_GT(lanes_with_one_of_two(m), 0);
 }
 
-/// Largest difference between f(wo, wi) and factor·f(wi, wo), relative above values of 1e-3; `there` is the lobe as seen from wi's side.
+/// Largest difference between f(wo, wi) and factor·f(wi, wo), relative above values of 1e-3; `there` is the lobe as
+/// seen from wi's side.
 float reciprocity_error(const Model& here, const Model& there, bool across, float factor) {
     Uniform u(5);
     float worst = 0;
@@ -116,8 +119,9 @@ TEST(Properties, ReciprocalReflection) {
     for (const float r : {0.0f, 0.7f, 1.0f}) {
         bsdf::Lobe diffuse = lobe_of(LobeKind::diffuse, r), preserving = diffuse;
         preserving.preserve_energy = true;
-        for (const bsdf::Lobe& l : {diffuse, preserving, lobe_of(LobeKind::burley, r), lobe_of(LobeKind::velvet, r),
-                                    lobe_of(LobeKind::sheen_v1, r), lobe_of(LobeKind::ggx_reflection, std::max(r, 0.3f), Fresnel::schlick)}) {
+        for (const bsdf::Lobe& l :
+             {diffuse, preserving, lobe_of(LobeKind::burley, r), lobe_of(LobeKind::velvet, r),
+              lobe_of(LobeKind::sheen_v1, r), lobe_of(LobeKind::ggx_reflection, std::max(r, 0.3f), Fresnel::schlick)}) {
             const Model m = model_of("reflection", l);
             EXPECT_LT(reciprocity_error(m, m, false, 1), 2e-3f) << static_cast<int>(l.kind) << " " << r;
         }
@@ -159,7 +163,8 @@ TEST(Properties, FiniteAtGrazingAngles) {
             for (const float d : {0.0f, 1e-7f, -1e-7f, 1e-3f, -1e-3f, 1.0f, -1.0f})
                 for (const float phi : {0.3f, 1.0f, 3.4415927f}) {
                     const LobeEval e = m.eval(wo, direction(d, phi));
-                    EXPECT_TRUE(finite_and_positive(e.f_cos) && finite_and_positive(e.pdf)) << m.name << " " << c << " " << d;
+                    EXPECT_TRUE(finite_and_positive(e.f_cos) && finite_and_positive(e.pdf))
+                        << m.name << " " << c << " " << d;
                 }
             for (const Vec3& w : {Vec3{0.0f, 0.0f, 0.0f}, Vec3{0.99999994f, 0.99999994f, 0.99999994f}, u.lanes3()}) {
                 const LobeSample s = m.sample(wo, w);
@@ -172,7 +177,8 @@ TEST(Properties, FiniteAtGrazingAngles) {
 }
 
 TEST(Properties, InactiveLanesAreInvalid) {
-    for (const auto kind : {LobeKind::diffuse, LobeKind::translucent, LobeKind::ggx_reflection, LobeKind::ggx_glass, LobeKind::sheen}) {
+    for (const auto kind :
+         {LobeKind::diffuse, LobeKind::translucent, LobeKind::ggx_reflection, LobeKind::ggx_glass, LobeKind::sheen}) {
         const bsdf::Lobe l = lobe_of(kind, 0.5f);
         EXPECT_TRUE(none(sample_lobe(l, 0, direction(0.8f, 0), k_up, {0.3f, 0.4f, 0.5f}, mask_of(false)).valid));
     }
@@ -183,8 +189,9 @@ TEST(Properties, NothingOnTheWrongSideOfTheSurface) {
     const Vec3 ng = direction(0.5f, 0.0f), wo = direction(0.8f, 0.0f);
     Uniform u(7);
     for (const Model& plain : all_models()) {
-        for (const auto kind : {LobeKind::diffuse, LobeKind::translucent, LobeKind::ggx_reflection, LobeKind::ggx_refraction,
-                                LobeKind::ggx_glass, LobeKind::sheen, LobeKind::burley, LobeKind::velvet}) {
+        for (const auto kind :
+             {LobeKind::diffuse, LobeKind::translucent, LobeKind::ggx_reflection, LobeKind::ggx_refraction,
+              LobeKind::ggx_glass, LobeKind::sheen, LobeKind::burley, LobeKind::velvet}) {
             const Model m = model_of(plain.name, lobe_of(kind, 0.7f, Fresnel::dielectric), ng);
             const Vec3 wi = random_direction(u);
             const Mask crosses = (dot(ng, wi) > Float(0.0f)) ^ (wi.z > Float(0.0f));
@@ -216,7 +223,8 @@ TEST(Delta, WindowFollowsSnellAndSplitsByFresnel) {
         const bsdf::Lobe l = lobe_of(LobeKind::ggx_glass, 0, Fresnel::dielectric, eta);
         const Vec3 wo = direction(0.8f, 0.0f);
         const float sin_t = 0.6f / eta, cos_t = std::sqrt(1 - sin_t * sin_t);
-        const float r_s = (0.8f - eta * cos_t) / (0.8f + eta * cos_t), r_p = (eta * 0.8f - cos_t) / (eta * 0.8f + cos_t);
+        const float r_s = (0.8f - eta * cos_t) / (0.8f + eta * cos_t),
+                    r_p = (eta * 0.8f - cos_t) / (eta * 0.8f + cos_t);
         const float f = 0.5f * (r_s * r_s + r_p * r_p);
         const LobeSample t = sample_lobe(l, 0, wo, k_up, {0.2f, 0.7f, 0.99f}, mask_of(true));
         EXPECT_TRUE(all(t.valid & t.delta & t.transmitted));

@@ -91,7 +91,9 @@ TEST(SamplingMutants, PdfFivePercentTooSmall) {
 }
 
 TEST(SamplingMutants, PdfForgetsTheCosine) {
-    const auto uniform = [](LobeEval& e, Vec3, Vec3) { e.pdf = select(e.pdf > Float(0.0f), Float(0.5f * k_inv_pi), Float(0.0f)); };
+    const auto uniform = [](LobeEval& e, Vec3, Vec3) {
+        e.pdf = select(e.pdf > Float(0.0f), Float(0.5f * k_inv_pi), Float(0.0f));
+    };
     EXPECT_TRUE(chi2_rejects(with_both(lambert(), uniform)));
 }
 
@@ -107,9 +109,13 @@ TEST(SamplingMutants, EvalDropsOneOverPi) {
 
 TEST(SamplingMutants, RefractionJacobianWithoutEta) {
     for (const float eta : {1.5f, 1 / 1.5f}) {
-        const auto change = [eta](LobeEval& e, Vec3, Vec3 wi) { e.pdf *= select(wi.z < Float(0.0f), Float(1 / (eta * eta)), Float(1.0f)); };
+        const auto change = [eta](LobeEval& e, Vec3, Vec3 wi) {
+            e.pdf *= select(wi.z < Float(0.0f), Float(1 / (eta * eta)), Float(1.0f));
+        };
         EXPECT_TRUE(chi2_rejects(with_both(glass(eta), change)));
-        const auto value = [eta](LobeEval& e, Vec3, Vec3 wi) { e.f_cos = e.f_cos * select(wi.z < Float(0.0f), Float(1 / (eta * eta)), Float(1.0f)); };
+        const auto value = [eta](LobeEval& e, Vec3, Vec3 wi) {
+            e.f_cos = e.f_cos * select(wi.z < Float(0.0f), Float(1 / (eta * eta)), Float(1.0f));
+        };
         EXPECT_TRUE(weights_reject(with_eval(glass(eta), value)));
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "bsdf/kernels.h"
 #include "bsdf/width_probe.h"
+#include "bsdf/kernels.h"
 
 namespace cardioid::test {
 
@@ -10,7 +10,8 @@ using namespace cardioid::CD_ISA_NS;
 
 /// A deterministic number in [0, 1) for every use.
 inline float number(int lobe, int lane, int use) {
-    std::uint32_t h = static_cast<std::uint32_t>(lobe * 64 + lane) * 0x9e3779b9u + static_cast<std::uint32_t>(use) * 0x85ebca6bu;
+    std::uint32_t h =
+        static_cast<std::uint32_t>(lobe * 64 + lane) * 0x9e3779b9u + static_cast<std::uint32_t>(use) * 0x85ebca6bu;
     h ^= h >> 16;
     h *= 0x7feb352du;
     h ^= h >> 15;
@@ -65,8 +66,9 @@ void probe(float* out) {
             const Vec3 wo = load3(in.wo, i), ng = load3(in.ng, i);
             const LobeEval e = eval_lobe(in.lobe, i, wo, load3(in.wi, i), ng);
             const LobeSample s = sample_lobe(in.lobe, i, wo, ng, load3(in.u, i), mask_of(true));
-            const Float values[k_probe_values] = {e.f_cos.r, e.f_cos.g, e.f_cos.b, e.pdf, s.wi.x, s.wi.y, s.wi.z, s.f_cos.r,
-                                                  s.f_cos.g, s.f_cos.b, s.pdf, select(s.valid, Float(1.0f), Float(0.0f))};
+            const Float values[k_probe_values] = {
+                e.f_cos.r, e.f_cos.g, e.f_cos.b, e.pdf,     s.wi.x, s.wi.y,
+                s.wi.z,    s.f_cos.r, s.f_cos.g, s.f_cos.b, s.pdf,  select(s.valid, Float(1.0f), Float(0.0f))};
             for (int v = 0; v < k_probe_values; ++v)
                 for (int n = 0; n < W; ++n) out[((k * k_chunk) + i + n) * k_probe_values + v] = values[v][n];
         }

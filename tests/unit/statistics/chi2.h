@@ -12,9 +12,9 @@ namespace cardioid::statistics {
 
 struct Chi2Result {
     double statistic = 0;
-    int degrees = 0;            ///< cells after pooling, minus one
-    double p = 0;               ///< probability of a fit this bad or worse under the hypothesis; 0 where it is impossible
-    bool impossible = false;    ///< negative or non-finite expectation, or counts where nothing is expected
+    int degrees = 0;          ///< cells after pooling, minus one
+    double p = 0;             ///< probability of a fit this bad or worse under the hypothesis; 0 where it is impossible
+    bool impossible = false;  ///< negative or non-finite expectation, or counts where nothing is expected
     bool rejected(double level) const { return impossible || !(p >= level); }
 };
 
@@ -22,8 +22,9 @@ struct Chi2Result {
 inline double chi2_upper(double x, int k) { return gamma_q(0.5 * k, 0.5 * x); }
 
 /// `expected[i]` is n·probability of cell i, the same order as `observed`. Draws that fell in no cell (lost below the
-/// horizon) are passed as a cell of their own or left out of both sides. Cells are sorted by expectation and pooled until
-/// each has at least `least`. More than `stray`·Σobserved counts in cells that expect under 1e-9 are impossible.
+/// horizon) are passed as a cell of their own or left out of both sides. Cells are sorted by expectation and pooled
+/// until each has at least `least`. More than `stray`·Σobserved counts in cells that expect under 1e-9 are
+/// impossible.
 inline Chi2Result chi2_test(const std::vector<double>& observed, const std::vector<double>& expected, double least = 5,
                             double stray = 1e-5) {
     Chi2Result r;

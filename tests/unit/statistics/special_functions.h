@@ -10,7 +10,8 @@ namespace cardioid::statistics {
 
 namespace detail {
 
-/// Value of the continued fraction b0 + a1/(b1 + a2/(b2 + ...)) by the modified Lentz method; term(n, a, b) gives a_n, b_n.
+/// Value of the continued fraction b0 + a1/(b1 + a2/(b2 + ...)) by the modified Lentz method; term(n, a, b) gives
+/// a_n, b_n.
 template <class Term>
 double continued_fraction(double b0, Term term) {
     constexpr double k_tiny = 1e-300;

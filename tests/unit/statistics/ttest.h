@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Student's t-test against a known mean, Welch's test of two means, and the equivalence bound that "not rejected" needs.
+// Student's t-test against a known mean, Welch's test of two means, and the equivalence bound that "not rejected"
+// needs.
 #pragma once
 
 #include "statistics/special_functions.h"
@@ -42,10 +43,10 @@ inline double student_quantile(double p, double degrees) {
 }
 
 struct TResult {
-    double difference = 0;      ///< mean − reference, or first mean − second
-    double error = 0;           ///< standard error of the difference
+    double difference = 0;  ///< mean − reference, or first mean − second
+    double error = 0;       ///< standard error of the difference
     double degrees = 0;
-    double p = 0;               ///< two-sided; NaN when the data are not finite
+    double p = 0;  ///< two-sided; NaN when the data are not finite
     bool rejected(double level) const { return !(p >= level); }
     /// Half width of the two-sided confidence interval of the difference at 1 − level.
     double half_width(double level) const { return error * student_quantile(level, degrees); }
