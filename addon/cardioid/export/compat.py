@@ -55,6 +55,17 @@ def transparent_shadow(material: Any) -> bool:
     return bool(cycles(material, "use_transparent_shadow", True))
 
 
+def true_displacement(material: Any) -> bool:
+    """Displacement moves the surface, instead of its normals alone."""
+    on_material = getattr(material, "displacement_method", None)
+    return (on_material or cycles(material, "displacement_method", "BUMP")) != "BUMP"
+
+
+def has_light_linking(obj: Any) -> bool:
+    linking = getattr(obj, "light_linking", None)
+    return linking is not None and bool(linking.receiver_collection or linking.blocker_collection)
+
+
 def node_versions(node_type: str) -> dict[str, Any]:
     """Parameters that tell apart nodes which share a type but not a meaning."""
     if node_type == "ShaderNodeBsdfPrincipled":

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from typing import Any
 
@@ -53,12 +54,17 @@ class Images:
 
 def _path(image: Any, user: Any, frame: int) -> str:
     """Absolute path of the file for this frame; the library's folder counts for linked images."""
-    path = bpy.path.abspath(image.filepath, library=image.library)
+    path = absolute(image.filepath, image.library)
     if image.source == "SEQUENCE" and user is not None:
         return _sequence_path(path, sequence_frame(user, frame))
     if image.source == "TILED":
         return path.replace("<UDIM>", "1001").replace("<UVTILE>", "u1_v1")
     return path
+
+
+def absolute(path: str, library: Any) -> str:
+    """`path` as Blender opens it: // is the folder of the .blend file, and files saved on Windows work elsewhere."""
+    return bpy.path.abspath(path if os.sep == "\\" else path.replace("\\", "/"), library=library)
 
 
 def sequence_frame(user: Any, frame: int) -> int:

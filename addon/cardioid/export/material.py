@@ -21,6 +21,7 @@ class Materials:
     def __init__(self, scene: Any, images: Images, override: Any, warnings: list[str]) -> None:
         self._scene, self._images, self._override, self._warnings = scene, images, override, warnings
         self._known: dict[int, int] = {}
+        self._graphs: dict[int, dict[str, Any] | None] = {}
 
     def indices(self, obj: Any) -> list[int]:
         """One for each slot of an evaluated object; -1: the default grey."""
@@ -37,13 +38,17 @@ class Materials:
 
     def graph(self, owner: Any, kind: str) -> dict[str, Any] | None:
         """The node tree of a material, world or light; None when it does without or the tree cannot be read."""
-        tree = compat.node_tree(owner)
-        if tree is None:
-            return None
+        key = owner.as_pointer()
+        if key not in self._graphs:
+            tree = compat.node_tree(owner)
+            self._graphs[key] = None if tree is None else self._walk(f"{kind} “{owner.name}”", tree)
+        return self._graphs[key]
+
+    def _walk(self, owner: str, tree: Any) -> dict[str, Any] | None:
         try:
-            return GraphWalk(f"{kind} “{owner.name}”", tree, self._images, self._warnings.append).run()
+            return GraphWalk(owner, tree, self._images, self._warnings.append).run()
         except Exception as error:
-            self._warnings.append(f"{kind} “{owner.name}”: nodes cannot be read: {error}")
+            self._warnings.append(f"{owner}: nodes cannot be read: {error}")
             return None
 
     def _add(self, material: Any) -> int:
@@ -59,6 +64,8 @@ class Materials:
         graph = self.graph(material, "Material")
         if graph is not None:
             desc["graph"] = graph
+            if graph["displacement"] and compat.true_displacement(material):
+                self._warnings.append(f"Material “{material.name}”: true displacement is not supported, bump is used")
         try:
             return self._scene.add_material(desc)
         except Exception as error:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,6 +27,18 @@ class Triangles:
     corners: np.ndarray
     vertices: np.ndarray
     polygon: np.ndarray
+
+
+@contextmanager
+def arrays_of(source: Any, data: Any) -> Iterator[Any]:
+    """`data`, an evaluated mesh of `source`, or a copy: of a mesh in edit mode Blender shows only parts."""
+    if not data.is_editmode:
+        yield data
+        return
+    try:
+        yield source.to_mesh()
+    finally:
+        source.to_mesh_clear()
 
 
 def add(scene: Any, name: str, mesh: Any, wanted: set[str], warnings: list[str]) -> int:

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 
 from . import compat
-from .image import Images
+from .image import Images, absolute
 from .names import affine
 
 TABLE = 256  # entries of a curve table
@@ -46,7 +46,7 @@ def _text(node: Any, name: str) -> str:
     value = getattr(node, name)
     if isinstance(value, set):
         return " ".join(sorted(value))
-    return bpy.path.abspath(value, library=node.id_data.library) if name == "filepath" else value
+    return absolute(value, node.id_data.library) if name == "filepath" else value
 
 
 def _pointer(node: Any, name: str, images: Images) -> dict[str, Any]:

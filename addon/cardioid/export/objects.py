@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from . import light, mesh, names
+from . import compat, light, mesh, names
 from .material import Materials, attribute_names
 from .options import ExportCancelled, ExportOptions
 
@@ -66,7 +66,7 @@ class Objects:
         key = (source.as_pointer(), obj.data.as_pointer(), parent.as_pointer() if dupli else 0)
         if key not in self._kinds:
             self._kinds[key] = None  # stays so when this fails: told once, not for each instance
-            self._kinds[key] = self._kind(obj, parent)
+            self._kinds[key] = self._kind(obj, source, parent)
         kind = self._kinds[key]
         if kind is None or kind.mesh < 0:
             return
@@ -77,7 +77,7 @@ class Objects:
             desc["dupli_uv"] = list(instance.uv)
         self._scene.add_instance(desc)
 
-    def _kind(self, obj: Any, parent: Any) -> _Kind:
+    def _kind(self, obj: Any, source: Any, parent: Any) -> _Kind:
         owner = parent or obj
         holdout = owner.is_holdout or owner.holdout_get(view_layer=self._view_layer)
         visibility = names.object_visibility(obj) & names.object_visibility(owner)
@@ -85,24 +85,33 @@ class Objects:
             visibility &= ~names.CAMERA
         if visibility == 0:
             return _Kind(-1, {})
-        if obj.is_shadow_catcher or owner.is_shadow_catcher:
-            self._tell(f"Object “{obj.name}”: shadow catchers are not supported, rendered as it is")
-        index = self._mesh(obj)
+        self._tell_unsupported(obj, owner)
+        index = self._mesh(obj, source)
         return _Kind(index, {} if index < 0 else {
             "name": obj.name, "mesh": index, "materials": self._materials.indices(obj), "visibility": visibility,
             "holdout": bool(holdout), "pass_index": obj.pass_index, "color": list(obj.color),
             "random": names.unit_random(names.hash_name(obj.name))})
 
-    def _mesh(self, obj: Any) -> int:
-        key = obj.data.as_pointer()
+    def _mesh(self, obj: Any, source: Any) -> int:
+        data = obj.data
+        key = data.as_pointer()
         if key not in self._meshes:
             self._meshes[key] = -1
-            self._meshes[key] = mesh.add(self._scene, obj.data.name, obj.data, self._wanted, self._warnings)
+            with mesh.arrays_of(source, data) as filled:
+                self._meshes[key] = mesh.add(self._scene, data.name, filled, self._wanted, self._warnings)
         return self._meshes[key]
 
     def _lamp(self, instance: Any, obj: Any) -> None:
+        if compat.has_light_linking(obj):
+            self._tell(f"Light “{obj.name}”: light linking is not supported, it reaches all objects")
         graph = self._materials.graph(obj.data, "Light")
         self._scene.add_light(light.describe(obj, instance.matrix_world, graph))
+
+    def _tell_unsupported(self, obj: Any, owner: Any) -> None:
+        if obj.is_shadow_catcher or owner.is_shadow_catcher:
+            self._tell(f"Object “{obj.name}”: shadow catchers are not supported, rendered as it is")
+        if compat.has_light_linking(obj) or compat.has_light_linking(owner):
+            self._tell(f"Object “{obj.name}”: light linking is not supported, all lights reach it")
 
     def _hair(self, obj: Any) -> None:
         if any(p.settings.type == "HAIR" and p.settings.render_type == "PATH" for p in obj.particle_systems):

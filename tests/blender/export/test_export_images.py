@@ -61,6 +61,31 @@ def test_relative_path(tmp_path):
     assert only_image()["path"] == str(tmp_path / "picture.png")
 
 
+def test_path_that_was_written_on_windows(tmp_path):
+    image = file_image(tmp_path)
+    texture(image)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    image.filepath = "//.\\picture.png"
+    assert Path(only_image()["path"]) == tmp_path / "picture.png"
+
+
+def test_picture_of_a_linked_library_is_relative_to_the_library(tmp_path):
+    (tmp_path / "lib").mkdir()
+    image = file_image(tmp_path / "lib")
+    texture(image)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "lib" / "lib.blend"))
+    image.filepath = "//picture.png"
+    bpy.ops.wm.save_mainfile()
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    with bpy.data.libraries.load(str(tmp_path / "lib" / "lib.blend"), link=True) as (source, target):
+        target.objects = [n for n in source.objects if n.startswith("Quad")]
+    for obj in target.objects:
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.context.scene.camera = add(bpy.data.cameras.new("Camera"))
+    assert Path(only_image()["path"]) == tmp_path / "lib" / "picture.png"
+
+
 def test_colour_space_and_alpha(tmp_path):
     image = file_image(tmp_path)
     image.colorspace_settings.name, image.alpha_mode = "Non-Color", "CHANNEL_PACKED"

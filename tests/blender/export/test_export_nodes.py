@@ -160,6 +160,16 @@ def test_every_shader_node_can_be_exported():
     assert not failed and count > 70
 
 
+def test_true_displacement_is_named():
+    new, tree = material()
+    use(new)
+    end = tree.nodes.new("ShaderNodeOutputMaterial")
+    (new if hasattr(new, "displacement_method") else new.cycles).displacement_method = "DISPLACEMENT"
+    assert not export().warnings
+    tree.links.new(tree.nodes.new("ShaderNodeDisplacement").outputs[0], end.inputs["Displacement"])
+    assert any("Material" in w and "displacement" in w for w in export().warnings)
+
+
 def test_an_unreadable_tree_is_named_and_the_rest_renders(monkeypatch):
     from cardioid.export import nodes
     exported_node("ShaderNodeTexNoise")

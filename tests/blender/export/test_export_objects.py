@@ -272,6 +272,27 @@ def test_a_failing_object_is_named_once_and_the_rest_is_placed(monkeypatch):
     assert [w for w in exported.warnings if "broken on purpose" in w and "Bad" in w]
 
 
+@pytest.mark.parametrize("levels", [0, 1])
+def test_a_mesh_in_edit_mode_is_there(levels):
+    import bmesh
+    obj = add(quad(), "Thing")
+    if levels:
+        obj.modifiers.new("Sub", "SUBSURF").levels = levels
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bmesh.from_edit_mesh(obj.data)
+    bmesh.ops.poke(mesh, faces=mesh.faces)
+    bmesh.update_edit_mesh(obj.data)
+    found = export().scene
+    assert len(found.meshes[0]["triangles"]) == (24 if levels else 4)
+
+
+@pytest.mark.skipif(bpy.app.version < (4, 0, 0), reason="light linking came with 4.0")
+def test_light_linking_is_named():
+    add(bpy.data.lights.new("Lamp", "POINT")).light_linking.receiver_collection = bpy.data.collections.new("R")
+    assert any("Lamp" in w and "light linking" in w for w in export().warnings)
+
+
 def test_the_export_can_be_stopped():
     add(quad())
     with pytest.raises(ExportCancelled):
