@@ -47,6 +47,7 @@ def reset(*, width: int = 32, height: int = 24, samples: int = 4) -> bpy.types.S
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_depth = "32"
     scene.render.image_settings.color_mode = "RGBA"
+    scene.render.image_settings.exr_codec = "NONE"  # Blender misses a full disk when the file fits its last buffer
     scene.view_settings.view_transform = "Standard"
     camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
     camera.data.type, camera.data.ortho_scale = "ORTHO", 1.9
