@@ -133,7 +133,7 @@ struct alignas(64) Scratch {
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
     PathInts order;                          ///< paths sorted by material
-    PathInts pixel_seed, sample_index;       ///< by path
+    PathInts pixel_seed, sample_index;       ///< by path; sample numbers with their bits reversed, as sample_pair wants them
     std::int32_t* bins = nullptr;            ///< material_count + 2 counters, owned by the caller
     Counters counters;
     const std::atomic<bool>* cancelled = nullptr;

@@ -37,7 +37,7 @@ void Tracer::start() {
     path::RayState& rays = *now;
     rays.n = n;
     for (int i = 0; i < n; i += W) {
-        const Int x = load(result.x + i), y = load(result.y + i), sample = load(result.sample + i);
+        const Int x = load(result.x + i), y = load(result.y + i), sample = reverse_bits(load(result.sample + i));
         const Int seed = hash(y * Int(frame_width) + x, Int::of_bits(request.seed * 0x9e3779b9u + 0x7f4a7c15u));
         store(scratch.pixel_seed + i, seed);
         store(scratch.sample_index + i, sample);

@@ -39,13 +39,13 @@ inline Int owen_scramble(Int x, Int seed) {
 /// [0,1): 24 bits of a value whose first digit is bit 31.
 inline Float unit_float(Int x) { return to_float(x >> 8) * 5.9604644775390625e-8f; }
 
-/// Second Sobol dimension of an index, first digit in bit 0 (Pascal matrix mod 2).
+/// Second Sobol dimension of an index, first digit in bit 0 (Pascal matrix mod 2: digit j sums the index bits that contain j).
 inline Int sobol_second(Int x) {
-    x ^= (x << 1) & Int::of_bits(0xaaaaaaaau);
-    x ^= (x << 2) & Int::of_bits(0xccccccccu);
-    x ^= (x << 4) & Int::of_bits(0xf0f0f0f0u);
-    x ^= (x << 8) & Int::of_bits(0xff00ff00u);
-    x ^= x << 16;
+    x ^= (x >> 1) & Int(0x55555555);
+    x ^= (x >> 2) & Int(0x33333333);
+    x ^= (x >> 4) & Int(0x0f0f0f0f);
+    x ^= (x >> 8) & Int(0x00ff00ff);
+    x ^= x >> 16;
     return x;
 }
 
@@ -53,10 +53,12 @@ struct Vec2 {
     Float x, y;
 };
 
-/// The pair of dimensions `dimension` of sample number `index` in the sequence of `pixel_seed`.
-inline Vec2 sample_pair(Int pixel_seed, Int index, Int dimension) {
+/// The pair of dimensions `dimension` of a sample in the sequence of `pixel_seed`. `reversed_index` is reverse_bits(sample
+/// number): the order of samples is shuffled for every pair by an Owen scramble from the number's highest bit down, which keeps
+/// each aligned block of 2^k samples a (0,2) net.
+inline Vec2 sample_pair(Int pixel_seed, Int reversed_index, Int dimension) {
     const Int seed = hash(pixel_seed, dimension);
-    const Int shuffled = owen_scramble(index, seed);
+    const Int shuffled = reverse_bits(owen_scramble(reversed_index, seed));
     const Int x = owen_scramble(shuffled, hash(seed ^ Int::of_bits(0xa511e9b3u)));
     const Int y = owen_scramble(sobol_second(shuffled), hash(seed ^ Int::of_bits(0x63d83595u)));
     return {unit_float(reverse_bits(x)), unit_float(reverse_bits(y))};
