@@ -36,11 +36,11 @@ void in_parallel(std::size_t count, Task task) {
 
 struct ImageStore::Impl {
     FileCache files;
-    TileCache tiles;
-    ColorSpaces spaces;
-    SrgbTable srgb;
     std::vector<std::unique_ptr<Picture>> pictures;
     std::unique_ptr<Picture> missing = std::make_unique<Picture>();
+    TileCache tiles;   // after the pictures, whose tiles it frees
+    ColorSpaces spaces;
+    SrgbTable srgb;
     std::vector<std::once_flag> mean_once;
     std::vector<Float3> means;
     mutable std::mutex warnings_mutex;
@@ -48,9 +48,9 @@ struct ImageStore::Impl {
 
     Impl(const std::vector<scene::ImageDesc>& images, const std::string& ocio_config, int cache_mb)
         : files(reader_share(cache_mb)),
+          pictures(images.size()),
           tiles((std::max(cache_mb, k_smallest_cache_mb) - reader_share(cache_mb)) * k_megabyte),
           spaces(ocio_config),
-          pictures(images.size()),
           mean_once(images.size()),
           means(images.size()) {
         open(images);
