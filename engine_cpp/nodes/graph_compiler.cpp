@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "nodes/graph_compiler.h"
 
-#include "nodes/node_context.h"
+#include "nodes/node_helpers.h"
 
 #include <algorithm>
 
@@ -23,6 +23,7 @@ GraphCompiler::GraphCompiler(const scene::GraphDesc& graph, const CompileContext
     : graph_(graph), context_(context), warnings_(warnings), builder_(context.optimise), types_(graph.nodes.size()),
       weight_(graph.nodes.size()), reached_(graph.nodes.size(), false) {
     for (std::size_t k = 0; k < graph_.nodes.size(); ++k) types_[k] = find_node_type(graph_.nodes[k].type);
+    normal_ = builder_.chunk3(ChunkRow::normal);
     cut_bad_links();
     cut_loops();
 }
@@ -90,6 +91,7 @@ void GraphCompiler::run() {
     if (graph_.volume.node >= 0)
         warn("volume", std::string("Volume shaders are not supported yet (") + kind_name(context_.kind) + " '" + context_.name + "')");
     if (surface.node < 0) return;
+    apply_displacement();
     if (is_closure(surface.node)) {
         run_closures(surface.node);
         return;
@@ -102,6 +104,24 @@ void GraphCompiler::run() {
     evaluate(surface.node, Shift::none);
     const Value* v = output(surface.node, surface.socket, Shift::none);
     if (v != nullptr) builder_.emission(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v);
+}
+
+/// Displacement as bump mapping: the height is the displacement along the normal.
+void GraphCompiler::apply_displacement() {
+    const scene::OutputDesc& out = graph_.displacement;
+    if (out.node < 0 || context_.kind != GraphKind::material || is_closure(out.node)) return;
+    Ref height[3];
+    for (const Shift shift : {Shift::none, Shift::x, Shift::y}) {
+        evaluate(out.node, shift);
+        const Value* v = output(out.node, out.socket, shift);
+        if (v == nullptr) return;
+        height[static_cast<int>(shift)] = builder_.dot(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v, normal_);
+    }
+    NodeContext c(*this, out.node, Shift::none, nullptr);
+    const Ref one = builder_.constant(1);
+    normal_ = bumped(c, normal_, builder_.subtract(height[1], height[0]), builder_.subtract(height[2], height[0]), one, one);
+    // What was computed so far saw the plain normal.
+    outputs_.clear();
 }
 
 /// Closures reachable from the root, each before those that it mixes.

@@ -34,6 +34,8 @@ public:
     Builder& builder() { return builder_; }
     const CompileContext& context() const { return context_; }
     int lobes() const { return lobes_; }
+    /// The shading normal; bumped where the material's displacement is.
+    Ref3 normal() const { return normal_; }
 
 private:
     friend class NodeContext;
@@ -42,6 +44,7 @@ private:
 
     void cut_bad_links();
     void cut_loops();
+    void apply_displacement();
     void run_closures(int root);
     std::vector<int> closure_order(int root) const;
     bool is_closure(int node) const { return types_[node] != nullptr && types_[node]->closure != nullptr; }
@@ -63,6 +66,7 @@ private:
     std::vector<Ref> weight_;                       ///< of closures, summed over all ways to reach them
     std::vector<bool> reached_;
     std::set<std::pair<int, std::string>> used_;    ///< outputs that something is linked to
+    Ref3 normal_;
     int bump_depth_ = 0;
     int lobes_ = 0;
 };

@@ -40,6 +40,12 @@ inline LaneAffine instance_affine(const nodes::ShadingChunk& chunk, int i, std::
     return a;
 }
 
+inline LaneAffine identity_affine() {
+    LaneAffine a;
+    for (int k = 0; k < 12; ++k) a.m[k] = Float(k % 5 == 0 ? 1.0f : 0.0f);
+    return a;
+}
+
 inline LaneAffine uniform_affine(const Affine& source) {
     LaneAffine a;
     for (int k = 0; k < 12; ++k) a.m[k] = Float(floats_of(source)[k]);

@@ -93,15 +93,16 @@ Ref3 NodeContext::generated() {
     return b.emit3(Op::transform, {p.x, p.y, p.z}, transform_mode(Space::generated, Quantity::point, Direction::from_world));
 }
 
-Results NodeContext::attribute(const std::string& name) {
+std::uint32_t NodeContext::attribute_id(const std::string& name) {
     std::vector<std::string>* names = compiler_.context().attribute_names;
-    if (names == nullptr) {
-        const Ref zero = b.constant(0);
-        return {zero, zero, zero, b.constant(1)};
-    }
+    if (names == nullptr) return 0xffffffffu;
     auto it = std::find(names->begin(), names->end(), name);
     if (it == names->end()) it = names->insert(names->end(), name);
-    return b.emit_all(Op::attribute, {barycentric_u(), barycentric_v()}, static_cast<std::uint32_t>(it - names->begin()));
+    return static_cast<std::uint32_t>(it - names->begin());
+}
+
+Results NodeContext::attribute(const std::string& name) {
+    return b.emit_all(Op::attribute, {barycentric_u(), barycentric_v()}, attribute_id(name));
 }
 
 Ref NodeContext::number_at(const char* id, Shift shift, float fallback) {

@@ -52,9 +52,11 @@ public:
     Ref3 position();
     Ref3 object_position();
     Ref3 generated();
-    Ref3 normal() { return b.chunk3(ChunkRow::normal); }
+    Ref3 normal() { return compiler_.normal(); }
     Ref barycentric_u() { return barycentric(0); }
     Ref barycentric_v() { return barycentric(1); }
+    /// Id of an attribute name; -1 (as unsigned) when the caller keeps no names.
+    std::uint32_t attribute_id(const std::string& name);
     /// Attribute by name: x, y, z, w rows.
     Results attribute(const std::string& name);
     GraphKind kind() const { return compiler_.context().kind; }

@@ -12,14 +12,24 @@ inline Ref sided_eta(NodeContext& c, Ref ior) {
     return c.b.select_positive(c.b.chunk(ChunkRow::backfacing), c.b.divide(c.b.constant(1), eta), eta);
 }
 
-/// Blender's tangent of a surface without one: around the z axis of the generated coordinates.
-inline Ref3 default_tangent(NodeContext& c) {
-    const Ref3 g = c.generated();
-    const Ref half = c.b.constant(0.5f), zero = c.b.constant(0);
-    const Ref3 around = {c.b.subtract(half, g.y), c.b.subtract(g.x, half), zero};
+/// The part of an object-space direction that lies in the surface.
+inline Ref3 tangent_around(NodeContext& c, Ref3 around) {
     const Ref3 t = c.b.emit3(Op::transform, {around.x, around.y, around.z}, transform_mode(Space::object, Quantity::normal, Direction::to_world));
     const Ref3 n = c.normal();
     return c.b.cross(n, c.b.normalize(c.b.cross(t, n)));
+}
+
+/// Blender's tangent of a surface without one: around the z axis of the generated coordinates.
+inline Ref3 default_tangent(NodeContext& c) {
+    const Ref3 g = c.generated();
+    const Ref half = c.b.constant(0.5f);
+    return tangent_around(c, {c.b.subtract(half, g.y), c.b.subtract(g.x, half), c.b.constant(0)});
+}
+
+/// The normal tilted by a height that changes by dx and dy over a pixel's width.
+inline Ref3 bumped(NodeContext& c, Ref3 n, Ref dx, Ref dy, Ref strength, Ref distance) {
+    const Ref3 sx = c.step(Shift::x), sy = c.step(Shift::y);
+    return c.b.emit3(Op::bump, {n.x, n.y, n.z, sx.x, sx.y, sx.z, sy.x, sy.y, sy.z, dx, dy, strength, distance});
 }
 
 /// `v` turned about the unit `axis` by `angle` radians.

@@ -25,6 +25,20 @@ inline constexpr std::uint32_t transform_mode(Space s, Quantity q, Direction d) 
     return static_cast<std::uint32_t>(s) | static_cast<std::uint32_t>(q) << 4 | static_cast<std::uint32_t>(d) << 8;
 }
 
+/// Entries of ramp and curve tables.
+inline constexpr int k_table_size = 256;
+
+enum class NoiseType : std::uint32_t { fbm, multifractal, hetero_terrain, hybrid_multifractal, ridged_multifractal };
+
+/// imm of the noise op: dimensions | type << 4 | flags.
+enum NoiseMode : std::uint32_t {
+    noise_dimension_mask = 7,
+    noise_type_shift = 4,
+    noise_normalize = 1u << 8,
+    noise_musgrave = 1u << 9,   ///< octaves are counted from 0, not from 1
+    noise_color = 1u << 10,     ///< the second and third result are wanted
+};
+
 enum class RayValue : std::uint32_t {
     is_camera, is_shadow, is_diffuse, is_glossy, is_singular, is_reflection, is_transmission, is_volume,
     length, depth, diffuse_depth, glossy_depth, transparent_depth, transmission_depth,

@@ -37,13 +37,38 @@ Corners corner_elements(const nodes::ShadingChunk& chunk, int i, Int domain, Int
     return e;
 }
 
-/// One channel, interpolated.
-Float channel(const float* data, const Corners& e, Int offset, Int channels, Int k, Float u, Float v) {
-    const Float a = gather(data, offset + e.a * channels + k);
-    const Float b = gather(data, offset + e.b * channels + k);
-    const Float c = gather(data, offset + e.c * channels + k);
-    return (1.0f - u - v) * a + u * b + v * c;
-}
+/// An attribute at the lanes' triangles; lanes whose mesh lacks it read element 0 and are not in `have`.
+struct AttributeView {
+    const float* data = nullptr;
+    Mask have;
+    Int offset{0}, channels{0};
+    Corners e{0, 0, 0};
+
+    AttributeView(const nodes::ShadingChunk& chunk, int i, int name, int least_channels) {
+        const nodes::GeometryTables* g = chunk.geometry;
+        have = load(chunk.instance + i) >= Int(0);
+        if (g == nullptr || g->attributes == nullptr || name < 0 || name >= g->attribute_names) have = mask_of(false);
+        if (none(have)) return;
+        data = g->floats;
+        const Int mesh = select(have, load(chunk.mesh + i), Int(0));
+        const Int entry = (mesh * Int(g->attribute_names) + Int(name)) * Int(2);
+        const auto* table = reinterpret_cast<const std::int32_t*>(g->attributes);
+        const Int packed = gather(table + 1, entry);
+        channels = (packed >> 8) & Int(0xff);
+        have &= channels >= Int(least_channels);
+        if (none(have)) return;
+        offset = select(have, gather(table, entry), Int(0));
+        e = corner_elements(chunk, i, packed & Int(0xff), mesh);
+        e = {select(have, e.a, Int(0)), select(have, e.b, Int(0)), select(have, e.c, Int(0))};
+        channels = select(have, channels, Int(0));
+    }
+    /// Channel k of one corner.
+    Float corner(Int element, Int k) const { return gather(data, offset + element * channels + k); }
+    /// Channel k, interpolated.
+    Float at(Int k, Float u, Float v) const {
+        return (1.0f - u - v) * corner(e.a, k) + u * corner(e.b, k) + v * corner(e.c, k);
+    }
+};
 
 void store4(const Machine& m, const Instruction& in, int i, Vec3 v, Float w) {
     store_vec(m, in, 0, i, v);
@@ -52,38 +77,22 @@ void store4(const Machine& m, const Instruction& in, int i, Vec3 v, Float w) {
 
 }  // namespace
 
+/// A single channel is a grey colour, two are (u, v, 0), alpha is 1 where there is none.
 void op_attribute(const Machine& m, const Instruction& in) {
     const Source u = m.arg(in, 0), v = m.arg(in, 1);
-    const nodes::GeometryTables* g = m.chunk.geometry;
-    const bool have_table = g != nullptr && g->attributes != nullptr && static_cast<int>(in.imm) < g->attribute_names;
     for (int i = 0; i < m.end; i += W) {
-        const Mask on_mesh = load(m.chunk.instance + i) >= Int(0);
-        if (!have_table || none(on_mesh)) {
+        const AttributeView a(m.chunk, i, static_cast<int>(in.imm), 1);
+        if (none(a.have)) {
             store4(m, in, i, {0.0f, 0.0f, 0.0f}, 1.0f);
             continue;
         }
-        const Int mesh = select(on_mesh, load(m.chunk.mesh + i), Int(0));
-        const Int entry = (mesh * Int(g->attribute_names) + Int(static_cast<int>(in.imm))) * Int(2);
-        const auto* table = reinterpret_cast<const std::int32_t*>(g->attributes);
-        const Int packed = gather(table + 1, entry);
-        const Int channels = select(on_mesh, (packed >> 8) & Int(0xff), Int(0));
-        const Mask have = channels > Int(0);
-        if (none(have)) {
-            store4(m, in, i, {0.0f, 0.0f, 0.0f}, 1.0f);
-            continue;
-        }
-        const Int offset = gather(table, entry);
-        Corners e = corner_elements(m.chunk, i, packed & Int(0xff), mesh);
-        e = {select(have, e.a, Int(0)), select(have, e.b, Int(0)), select(have, e.c, Int(0))};
-        const Int start = select(have, offset, Int(0));
         const Float s = u.at(i), t = v.at(i);
-        const Float x = channel(g->floats, e, start, channels, Int(0), s, t);
-        const Float y = channel(g->floats, e, start, channels, max(min(channels - Int(1), Int(1)), Int(0)), s, t);
-        const Mask single = channels == Int(1), many = channels >= Int(3), four = channels == Int(4);
+        const Mask single = a.channels == Int(1), many = a.channels >= Int(3), four = a.channels == Int(4);
+        const Float x = a.at(Int(0), s, t), y = a.at(select(a.channels > Int(1), Int(1), Int(0)), s, t);
         Float z = select(single, x, Float(0.0f)), w = 1.0f;
-        if (any(many)) z = select(many, channel(g->floats, e, start, channels, select(many, Int(2), Int(0)), s, t), z);
-        if (any(four)) w = select(four, channel(g->floats, e, start, channels, select(four, Int(3), Int(0)), s, t), w);
-        store4(m, in, i, {select(have, x, 0.0f), select(have, y, 0.0f), select(have, z, 0.0f)}, w);
+        if (any(many)) z = select(many, a.at(select(many, Int(2), Int(0)), s, t), z);
+        if (any(four)) w = select(four, a.at(select(four, Int(3), Int(0)), s, t), w);
+        store4(m, in, i, {select(a.have, x, 0.0f), select(a.have, y, 0.0f), select(a.have, z, 0.0f)}, w);
     }
 }
 
@@ -147,12 +156,16 @@ void op_transform(const Machine& m, const Instruction& in) {
             to_local = instance_affine(m.chunk, i, offsetof(InstanceInfo, world_to_object));
             to_world = instance_affine(m.chunk, i, offsetof(InstanceInfo, object_to_world));
         } else {
-            static const Affine identity{};
             const nodes::GeometryTables* g = m.chunk.geometry;
-            to_local = uniform_affine(g != nullptr ? g->world_to_camera : identity);
-            to_world = uniform_affine(g != nullptr ? g->camera_to_world : identity);
+            to_local = g != nullptr ? uniform_affine(g->world_to_camera) : identity_affine();
+            to_world = g != nullptr ? uniform_affine(g->camera_to_world) : identity_affine();
         }
-        Vec3 r = from_world ? apply(to_local, to_world, quantity, v.at(i)) : apply(to_world, to_local, quantity, v.at(i));
+        Vec3 p = v.at(i);
+        // Shaders see a camera that looks along +z.
+        if (space == Space::camera && !from_world) p.z = -p.z;
+        Vec3 r = from_world ? apply(to_local, to_world, quantity, p) : apply(to_world, to_local, quantity, p);
+        if (space == Space::camera && from_world) r.z = -r.z;
+        if (quantity == Quantity::normal) r = normalize(r);
         if (space == Space::generated) r = to_generated(m.chunk, i, r);
         store_vec(m, in, 0, i, r);
     }
@@ -177,6 +190,41 @@ void op_barycentric_step(const Machine& m, const Instruction& in) {
         const Float inv = select(det > Float(0.0f), 1.0f / max(det, 1e-38f), Float(0.0f));
         store(m.dst(in, 0) + i, load(m.chunk.barycentric_u + i) + (bb * pa - ab * pb) * inv);
         store(m.dst(in, 1) + i, load(m.chunk.barycentric_v + i) + (aa * pb - ab * pa) * inv);
+    }
+}
+
+void op_window(const Machine& m, const Instruction& in) {
+    const Source3 p = m.arg3(in, 0);
+    const nodes::GeometryTables* g = m.chunk.geometry;
+    for (int i = 0; i < m.end; i += W) {
+        if (g == nullptr) {
+            store_vec(m, in, 0, i, {0.0f, 0.0f, 0.0f});
+            continue;
+        }
+        const LaneAffine to_camera = uniform_affine(g->world_to_camera);
+        const Vec3 q = in.imm != 0 ? to_camera.vector(p.at(i)) : to_camera.point(p.at(i));
+        const float* plane = reinterpret_cast<const float*>(&g->view_plane);
+        const Float inv = g->orthographic ? Float(1.0f) : -1.0f / select(abs(q.z) > Float(1e-20f), q.z, Float(-1e-20f));
+        store_vec(m, in, 0, i, {(q.x * inv - plane[0]) / Float(plane[1] - plane[0]), (q.y * inv - plane[2]) / Float(plane[3] - plane[2]), 0.0f});
+    }
+}
+
+void op_uv_tangent(const Machine& m, const Instruction& in) {
+    for (int i = 0; i < m.end; i += W) {
+        const AttributeView uv(m.chunk, i, static_cast<int>(in.imm), 2);
+        if (none(uv.have)) {
+            store4(m, in, i, {0.0f, 0.0f, 0.0f}, 0.0f);
+            continue;
+        }
+        const Float u0 = uv.corner(uv.e.a, 0), v0 = uv.corner(uv.e.a, 1);
+        const Float u1 = uv.corner(uv.e.b, 0) - u0, v1 = uv.corner(uv.e.b, 1) - v0;
+        const Float u2 = uv.corner(uv.e.c, 0) - u0, v2 = uv.corner(uv.e.c, 1) - v0;
+        const Float det = u1 * v2 - u2 * v1;
+        const Float sign = copysign(1.0f, det);
+        const Vec3 t = (load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * sign;
+        const Vec3 n = load3(m.chunk.normal, i);
+        const Mask ok = uv.have & (det != Float(0.0f));
+        store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}), select(ok, sign, Float(0.0f)));
     }
 }
 

@@ -43,6 +43,21 @@ void op_rotate(const Machine& m, const Instruction& in) {
     }
 }
 
+/// Cycles' formula: the surface gradient of the height, and a blend with the plain normal by strength.
+void op_bump(const Machine& m, const Instruction& in) {
+    const Source3 normal = m.arg3(in, 0), step_x = m.arg3(in, 3), step_y = m.arg3(in, 6);
+    const Source height_x = m.arg(in, 9), height_y = m.arg(in, 10), strengths = m.arg(in, 11), distances = m.arg(in, 12);
+    for (int i = 0; i < m.end; i += W) {
+        const Vec3 n = normal.at(i), px = step_x.at(i), py = step_y.at(i);
+        const Vec3 rx = cross(py, n), ry = cross(n, px);
+        const Float det = dot(px, rx), strength = max(strengths.at(i), 0.0f);
+        const Vec3 gradient = rx * height_x.at(i) + ry * height_y.at(i);
+        const Vec3 tilted = n * abs(det) - gradient * (distances.at(i) * copysign(1.0f, det));
+        const Vec3 out = normalize(normalize(tilted) * strength + n * (1.0f - strength));
+        store_vec(m, in, 0, i, select(length_squared(tilted) > Float(0.0f), out, n));
+    }
+}
+
 void op_fresnel(const Machine& m, const Instruction& in) {
     map2(m, in, [](Float cosine, Float eta) {
         const Float c = abs(cosine), g2 = eta * eta - 1.0f + c * c;
