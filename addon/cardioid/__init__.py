@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cardioid, a render engine for Blender. It registers where the engine cannot be loaded too, and says what is missing."""
+"""Cardioid, a render engine for Blender. Where its engine cannot be loaded it registers and says what is missing."""
 
 import atexit
 

@@ -12,7 +12,7 @@ k_text_size = 16
 
 
 def draw_notice(region: bpy.types.Region) -> None:
-    """Two lines of text in the middle of the region."""
+    """Two lines of text at the bottom of the region, clear of the scene and of Blender's own texts."""
     font = 0
     scale = bpy.context.preferences.system.ui_scale
     if bpy.app.version >= (4, 0):
@@ -23,5 +23,5 @@ def draw_notice(region: bpy.types.Region) -> None:
     height = 1.6 * k_text_size * scale
     for number, line in enumerate(k_lines):
         width = blf.dimensions(font, line)[0]
-        blf.position(font, (region.width - width) / 2, region.height / 2 - number * height, 0)
+        blf.position(font, (region.width - width) / 2, height * (len(k_lines) + 0.5 - number), 0)
         blf.draw(font, line)

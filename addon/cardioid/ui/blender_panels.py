@@ -13,6 +13,7 @@ k_any_engine = "BLENDER_RENDER"
 k_replaced = {
     "DATA_PT_area", "DATA_PT_falloff_curve", "DATA_PT_light", "DATA_PT_spot", "NODE_DATA_PT_light", "NODE_DATA_PT_spot",
     "OBJECT_PT_visibility", "VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes",
+    "RENDER_PT_simplify", "RENDER_PT_simplify_viewport", "RENDER_PT_simplify_render", "RENDER_PT_simplify_greasepencil",
     "OBJECT_PT_shading",  # light linking, which Cardioid does not have
 }
 

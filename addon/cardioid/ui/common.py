@@ -9,6 +9,7 @@ import bpy
 from bpy_extras.node_utils import find_node_input
 
 k_engine = "CARDIOID"
+k_not_copied = {"__dict__", "__weakref__", "bl_rna", "is_registered"}
 
 
 class CardioidPanel:
@@ -82,10 +83,16 @@ def unregister_all(classes: Iterable[type]) -> None:
         bpy.utils.unregister_class(one)
 
 
+def renamed_copy(panel: type, prefix: str, **changes) -> type:
+    """A panel with the same contents under another name, below the parent with that prefix. Blender wants a class of
+    its own for each; inheriting from a registered panel does not work."""
+    members = {name: value for name, value in panel.__dict__.items() if name not in k_not_copied}
+    members.update(changes)
+    if "bl_parent_id" in members:
+        members["bl_parent_id"] = prefix + members["bl_parent_id"]
+    return type(prefix + panel.__name__, panel.__bases__, members)
+
+
 def node_editor_copy(panel: type) -> type:
     """The same panel for the node editor's sidebar, as Cycles has it."""
-    members = {name: value for name, value in panel.__dict__.items() if name not in {"__dict__", "__weakref__"}}
-    members.update(bl_space_type="NODE_EDITOR", bl_region_type="UI", bl_category="Options")
-    if "bl_parent_id" in members:
-        members["bl_parent_id"] = "NODE_" + members["bl_parent_id"]
-    return type("NODE_" + panel.__name__, panel.__bases__, members)
+    return renamed_copy(panel, "NODE_", bl_space_type="NODE_EDITOR", bl_region_type="UI", bl_category="Options")

@@ -6,12 +6,25 @@ from __future__ import annotations
 import bpy
 
 from .. import core
-from .common import CardioidPanel, register_all, setting, split, unregister_all, wrapped
+from .common import (
+    CardioidPanel,
+    k_engine,
+    register_all,
+    renamed_copy,
+    setting,
+    split,
+    unregister_all,
+    wrapped,
+)
+
+k_simplify = "RENDER_PT_simplify"
+
+_copies: list[type] = []
 
 
 def draw_engine_problem(self, context):
     """Under the engine's name: why nothing can be rendered, if so."""
-    if context.engine == "CARDIOID" and core.problem():
+    if context.engine == k_engine and core.problem():
         wrapped(self.layout.box(), core.problem(), "ERROR")
 
 
@@ -177,11 +190,20 @@ _classes = (
     CARDIOID_RENDER_PT_threads, CARDIOID_RENDER_PT_memory)
 
 
+def _simplify_panels() -> list[type]:
+    """Copies of Blender's Simplify panels: the originals would stand above Sampling, because they were there first."""
+    originals = [panel for panel in bpy.types.Panel.__subclasses__() if panel.__name__.startswith(k_simplify)]
+    return [renamed_copy(panel, "CARDIOID_", COMPAT_ENGINES={k_engine})
+            for panel in sorted(originals, key=lambda panel: len(panel.__name__))]
+
+
 def register() -> None:
-    register_all(_classes)
+    _copies[:] = _simplify_panels()
+    register_all((*_classes[:-3], *_copies, *_classes[-3:]))
     bpy.types.RENDER_PT_context.append(draw_engine_problem)
 
 
 def unregister() -> None:
     bpy.types.RENDER_PT_context.remove(draw_engine_problem)
-    unregister_all(_classes)
+    unregister_all((*_classes, *_copies))
+    _copies.clear()
