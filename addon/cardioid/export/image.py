@@ -11,6 +11,8 @@ import bpy
 import numpy as np
 
 _ALPHA = {"STRAIGHT": "straight", "PREMUL": "premultiplied", "CHANNEL_PACKED": "channel_packed", "NONE": "none"}
+_LIMITS = {"TILED": "tiles (UDIM) are not supported, tile 1001 is used everywhere",
+           "MOVIE": "movies are not supported, the frame in memory is used"}
 _RAW = "Non-Color"  # Blender keeps float pixels scene-linear: no conversion is left to do
 
 
@@ -40,10 +42,8 @@ class Images:
     def _describe(self, image: Any, path: str) -> dict[str, Any]:
         desc = {"name": image.name, "colorspace": image.colorspace_settings.name,
                 "alpha_mode": _ALPHA.get(image.alpha_mode, "straight")}
-        if image.source == "TILED":
-            self._warnings.append(f"Image “{image.name}”: tiles (UDIM) are not supported, tile 1001 is used everywhere")
-        if image.source == "MOVIE":
-            self._warnings.append(f"Image “{image.name}”: movies are not supported, the frame in memory is used")
+        if image.source in _LIMITS:
+            self._warnings.append(f"Image “{image.name}”: {_LIMITS[image.source]}")
         if image.source in ("GENERATED", "VIEWER", "MOVIE") or image.is_dirty:
             return {**desc, **_pixels(image)}
         packed = _packed(image, path)
