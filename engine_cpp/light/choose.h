@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Choosing an emitter by its estimated contribution (Conty Estevez & Kulla 2018): a few entries (lamps, suns, the world,
-// roots of trees) are weighed side by side, then trees are descended, lane by lane, with the same random number.
+// parts of a tree) are weighed side by side, then the tree is descended, lane by lane, with the same random number.
 #pragma once
 
 #include "light/kernels.h"

@@ -132,8 +132,9 @@ void make_sun(const LampInput& in, Float3 scene_min, Float3 scene_max, LampRecor
     const float reach = bounded ? length(scene_max - scene_min) + length(middle) : 1.0f;
     const float far = 1e5f * std::clamp(reach, 1.0f, 1e8f);
     const Float3 at = (bounded ? middle : Float3{}) + toward * far;
-    extend(r.bounds, at);
     const float radius = far * (s + 1e-4f);
+    extend(r.bounds, at - Float3{radius, radius, radius});
+    extend(r.bounds, at + Float3{radius, radius, radius});
     r.bounds.radius_squared = radius * radius;
     r.bounds.theta_o = k_pi;
     r.bounds.theta_e = k_pi / 2;

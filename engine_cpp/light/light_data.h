@@ -58,7 +58,8 @@ enum IntField { program = 0, instance = 1, index = 2, two_sided = 3 };
 inline constexpr int k_triangle_floats = 16;
 inline constexpr int k_triangle_ints = 4;
 
-/// What choosing needs of an emitter or of a group of them: bounding sphere, cone of emission and intensity.
+/// What choosing needs of an emitter or of a group of them: bounding sphere and box, cone of emission and
+/// intensity. A record is one cache line.
 namespace node {
 enum Field {
     center = 0,        ///< 3; suns stand far away
@@ -67,19 +68,24 @@ enum Field {
     cos_o = 7,         ///< normals lie within this angle of the axis
     cos_e = 8,         ///< light leaves within this angle of a normal
     energy = 9,        ///< mean |radiance| × area, summed: intensity along the normal; world: irradiance
+    half_size = 10,    ///< 3; of the bounding box around the same center
 };
 }  // namespace node
-inline constexpr int k_node_floats = 12;
+inline constexpr int k_node_floats = 16;
 
-/// Nodes of all trees; two siblings are neighbours in the arrays.
+/// Children of a node of a tree. More than two look further ahead for the same number of weighings: fewer picks end at
+/// emitters that cannot light the receiver.
+inline constexpr int k_tree_width = 8;
+
+/// Nodes of all trees; the k_tree_width children of a node are neighbours, those that are missing have no energy.
 struct NodeArrays {
     const float* record = nullptr;          ///< k_node_floats each
-    const std::int32_t* child = nullptr;    ///< first of two children; ~emitter for a leaf
-    const std::int32_t* parent = nullptr;   ///< -1: a root
+    const std::int32_t* child = nullptr;    ///< first child; ~emitter for a leaf
+    const std::int32_t* parent = nullptr;   ///< -1: an entry
 };
 
-/// At most this many entries are weighed one after the other before a tree is entered.
-inline constexpr int k_max_entries = 16;
+/// At most this many entries are weighed first: the top of the tree of lamps and triangles, that of the suns, the world.
+inline constexpr int k_max_entries = 2 * k_tree_width + 1;
 
 /// World: one colour, or a latitude-longitude grid whose rows are uniform in the polar angle and cells uniform in solid angle.
 struct EnvironmentData {
@@ -105,7 +111,7 @@ struct LightData {
     EnvironmentData environment;
 
     int entry_count = 0;                    ///< 0: nothing to sample
-    std::int32_t entry_node[k_max_entries] = {};     ///< node: a leaf (one emitter) or the root of a tree
+    std::int32_t entry_node[k_max_entries] = {};     ///< a leaf (one emitter) or the top of a part of a tree
     bool entry_is_world[k_max_entries] = {};
     NodeArrays nodes;
     const std::int32_t* leaf_of = nullptr;  ///< node of each emitter, -1: never chosen

@@ -13,10 +13,8 @@ namespace cardioid::light {
 namespace {
 
 constexpr float k_pi = std::numbers::pi_v<float>;
-/// Few emitters are weighed one by one; more of them go into a tree.
-constexpr std::size_t k_flat_lamps = 8;
-constexpr std::size_t k_flat_suns = 4;
-static_assert(k_flat_lamps + k_flat_suns + 1 <= k_max_entries);
+/// Lamps and triangles, suns, the world.
+static_assert(2 * k_tree_width + 1 <= k_max_entries);
 
 template <class T>
 std::int64_t bytes(const std::vector<T>& v) {
@@ -40,7 +38,7 @@ struct LightTable::Storage {
     void add_triangles(const std::vector<EmissiveTriangle>& triangles, std::vector<TreeLeaf>& finite);
     void add_triangle_lookup(const std::vector<EmissiveTriangle>& triangles);
     void add_world(const WorldInput& world);
-    void add_entries(std::vector<TreeLeaf>& leaves, std::size_t flat);
+    void add_tree(std::vector<TreeLeaf>& leaves);
     void add_entry(int node, bool is_world);
     void set_pointers();
 };
@@ -144,19 +142,15 @@ void LightTable::Storage::add_entry(int node, bool is_world) {
     ++data.entry_count;
 }
 
-void LightTable::Storage::add_entries(std::vector<TreeLeaf>& leaves, std::size_t flat) {
-    if (leaves.size() > flat) {
-        add_entry(build_light_tree(leaves, nodes), false);
-        return;
-    }
-    for (const TreeLeaf& leaf : leaves) add_entry(nodes.add(leaf.bounds, leaf.emitter, -1), false);
+void LightTable::Storage::add_tree(std::vector<TreeLeaf>& leaves) {
+    for (const int node : build_light_tree(leaves, nodes)) add_entry(node, false);
 }
 
 void LightTable::Storage::set_pointers() {
     leaf_of.assign(static_cast<std::size_t>(data.lamp_count) + static_cast<std::size_t>(data.triangle_count) + 1, -1);
     for (int node = 0; node < nodes.size(); ++node) {
         const std::int32_t child = nodes.child[static_cast<std::size_t>(node)];
-        if (child < 0) leaf_of[static_cast<std::size_t>(~child)] = node;
+        if (child < 0 && ~child != k_no_emitter) leaf_of[static_cast<std::size_t>(~child)] = node;
     }
     data.lamp = lamp.data();
     data.lamp_int = lamp_int.data();
@@ -186,8 +180,8 @@ LightTable::LightTable(const std::vector<LampInput>& lamps, const std::vector<Em
     storage_->add_lamps(lamps, scene_min, scene_max, finite, suns);
     storage_->add_triangles(triangles, finite);
     storage_->add_triangle_lookup(triangles);
-    storage_->add_entries(finite, k_flat_lamps);
-    storage_->add_entries(suns, k_flat_suns);
+    storage_->add_tree(finite);
+    storage_->add_tree(suns);
     if (world != nullptr) storage_->add_world(*world);
     storage_->set_pointers();
 }

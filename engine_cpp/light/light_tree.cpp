@@ -15,9 +15,9 @@ constexpr int k_greedy_depth = 40;
 float component(Float3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 void write_record(const EmitterBounds& b, float* out) {
-    const Float3 c = b.center();
+    const Float3 c = b.center(), half = (b.upper - b.lower) * 0.5f;
     const float values[k_node_floats] = {c.x, c.y, c.z, b.sphere_radius_squared(), b.axis.x, b.axis.y, b.axis.z,
-                                         std::cos(b.theta_o), std::cos(b.theta_e), b.energy, 0, 0};
+                                         std::cos(b.theta_o), std::cos(b.theta_e), b.energy, half.x, half.y, half.z, 0, 0, 0};
     std::copy(std::begin(values), std::end(values), out);
 }
 
@@ -95,11 +95,34 @@ std::size_t partition(std::span<TreeLeaf> leaves, int depth) {
     return leaves.size() / 2;
 }
 
+/// A run of leaves that becomes a node.
 struct Range {
-    int node;
-    std::size_t begin, end;
-    int depth;
+    std::size_t begin = 0, end = 0;
+    int depth = 0;
+    EmitterBounds bounds{};
+
+    std::size_t size() const { return end - begin; }
 };
+
+Range make_range(std::span<const TreeLeaf> all, std::size_t begin, std::size_t end, int depth) {
+    return {begin, end, depth, end - begin == 1 ? all[begin].bounds : bounds_of(all.subspan(begin, end - begin))};
+}
+
+/// Splits a range into up to k_tree_width parts, each time the one that costs most.
+std::vector<Range> children_of(std::span<TreeLeaf> all, const Range& range) {
+    std::vector<Range> parts{range};
+    while (parts.size() < k_tree_width) {
+        const auto next = std::max_element(parts.begin(), parts.end(), [](const Range& a, const Range& b) {
+            return (a.size() > 1 ? split_cost(a.bounds) : -1.0f) < (b.size() > 1 ? split_cost(b.bounds) : -1.0f);
+        });
+        if (next->size() <= 1) break;
+        const Range whole = *next;
+        const std::size_t middle = whole.begin + partition(all.subspan(whole.begin, whole.size()), whole.depth);
+        *next = make_range(all, whole.begin, middle, whole.depth + 1);
+        parts.push_back(make_range(all, middle, whole.end, whole.depth + 1));
+    }
+    return parts;
+}
 
 }  // namespace
 
@@ -112,24 +135,30 @@ int NodeStorage::add(const EmitterBounds& bounds, std::int32_t emitter, std::int
     return index;
 }
 
-int build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes) {
+std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes) {
+    std::vector<int> top;
+    if (leaves.empty()) return top;
     const std::span<TreeLeaf> all(leaves);
-    const int root = nodes.add(all.size() == 1 ? all[0].bounds : bounds_of(all), all[0].emitter, -1);
-    std::vector<Range> open{{root, 0, all.size(), 0}};
+    struct Open {
+        int node;
+        Range range;
+    };
+    std::vector<Open> open;
+    const auto add = [&](const Range& range, std::int32_t parent) {
+        const int node = nodes.add(range.bounds, all[range.begin].emitter, parent);
+        if (range.size() > 1) open.push_back({node, range});
+        return node;
+    };
+    for (const Range& part : children_of(all, make_range(all, 0, all.size(), 0))) top.push_back(add(part, -1));
     while (!open.empty()) {
-        const Range range = open.back();
+        const Open next = open.back();
         open.pop_back();
-        if (range.end - range.begin == 1) continue;
-        const std::size_t middle = range.begin + partition(all.subspan(range.begin, range.end - range.begin), range.depth);
-        const std::size_t ends[3] = {range.begin, middle, range.end};
-        nodes.child[static_cast<std::size_t>(range.node)] = nodes.size();
-        for (int side = 0; side < 2; ++side) {
-            const auto part = all.subspan(ends[side], ends[side + 1] - ends[side]);
-            const int node = nodes.add(part.size() == 1 ? part[0].bounds : bounds_of(part), part[0].emitter, range.node);
-            open.push_back({node, ends[side], ends[side + 1], range.depth + 1});
-        }
+        const std::vector<Range> parts = children_of(all, next.range);
+        nodes.child[static_cast<std::size_t>(next.node)] = nodes.size();
+        for (const Range& part : parts) add(part, next.node);
+        for (std::size_t i = parts.size(); i < k_tree_width; ++i) nodes.add(EmitterBounds{{}, {}}, k_no_emitter, next.node);
     }
-    return root;
+    return top;
 }
 
 }  // namespace cardioid::light

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds binary trees over emitters for choosing by importance, into the flat node arrays that kernels read.
+// Builds trees over emitters for choosing by importance, into the flat node arrays that kernels read.
 #pragma once
 
 #include "light/emitter_bounds.h"
@@ -9,6 +9,8 @@
 #include <vector>
 
 namespace cardioid::light {
+
+inline constexpr std::int32_t k_no_emitter = 0x7fffffff;
 
 struct TreeLeaf {
     EmitterBounds bounds;
@@ -21,11 +23,12 @@ struct NodeStorage {
     std::vector<std::int32_t> child, parent;
 
     int size() const { return static_cast<int>(child.size()); }
-    /// Appends a node without children and returns its index.
+    /// Appends a node without children and returns its index; k_no_emitter for one that is missing.
     int add(const EmitterBounds& bounds, std::int32_t emitter, std::int32_t parent_node);
 };
 
-/// Builds the tree of `leaves` (at least one) and returns its root. `leaves` is reordered. Deterministic.
-int build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes);
+/// Builds the tree of `leaves` without its root: up to k_tree_width nodes without a parent are returned (one for each leaf
+/// where there are few). `leaves` is reordered. Deterministic.
+std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes);
 
 }  // namespace cardioid::light

@@ -9,16 +9,23 @@ namespace cardioid::CD_ISA_NS {
 
 struct SeenRectangle {
     Float x0, x1, y0, y1, z;
-    Float c00, c01, c10, c11;   ///< solid angle between the foot point and each corner, signed
+    Float left;                 ///< solid angle, signed, between the foot point and the side x0
     Float solid_angle;
     Mask by_solid_angle;        ///< otherwise by area: far, or too small an angle for float
 };
 
 /// Beyond this many diagonals (squared) the density over the area hardly varies and the corners need not be evaluated.
-inline constexpr float k_far_diagonals2 = 16.0f;
+inline constexpr float k_far_diagonals2 = 9.0f;
 inline constexpr float k_least_solid_angle = 1e-3f;
 
-inline Float corner_angle(Float x, Float y, Float z) { return atan2(x * y, z * sqrt(fma(x, x, fma(y, y, z * z)))); }
+/// Signed solid angle between the foot point and the side at x from y0 to y1: the difference of the angles atan(xy / zd) at
+/// its two ends, taken as the angle of one complex product. Each is under pi/2, so nothing wraps.
+inline Float side_angle(Float x, Float y0, Float y1, Float z) {
+    const Float side2 = fma(x, x, z * z);
+    const Float re0 = z * sqrt(fma(y0, y0, side2)), re1 = z * sqrt(fma(y1, y1, side2));
+    const Float im0 = x * y0, im1 = x * y1;
+    return atan2(im1 * re0 - im0 * re1, fma(re1, re0, im1 * im0));
+}
 
 inline SeenRectangle see_rectangle(Float x0, Float x1, Float y0, Float y1, Float z, Mask active) {
     SeenRectangle r;
@@ -31,13 +38,10 @@ inline SeenRectangle see_rectangle(Float x0, Float x1, Float y0, Float y1, Float
     const Float distance2 = fma(mx, mx, fma(my, my, z * z));
     const Mask near = active & (distance2 < k_far_diagonals2 * fma(w, w, h * h));
     r.by_solid_angle = near;
-    r.c00 = r.c01 = r.c10 = r.c11 = r.solid_angle = 0.0f;
+    r.left = r.solid_angle = 0.0f;
     if (none(near)) return r;
-    r.c00 = corner_angle(x0, y0, z);
-    r.c01 = corner_angle(x0, y1, z);
-    r.c10 = corner_angle(x1, y0, z);
-    r.c11 = corner_angle(x1, y1, z);
-    r.solid_angle = (r.c11 - r.c10) - (r.c01 - r.c00);
+    r.left = side_angle(x0, y0, y1, z);
+    r.solid_angle = side_angle(x1, y0, y1, z) - r.left;
     r.by_solid_angle = near & (r.solid_angle > Float(k_least_solid_angle));
     return r;
 }
@@ -56,7 +60,7 @@ struct RectanglePoint {
 inline RectanglePoint sample_solid_angle(const SeenRectangle& r, Float u, Float v) {
     const Float b0 = -r.y0 / sqrt(fma(r.y0, r.y0, r.z * r.z));
     const Float b1 = r.y1 / sqrt(fma(r.y1, r.y1, r.z * r.z));
-    const Float angle = fma(u, r.solid_angle, r.c01 - r.c00);
+    const Float angle = fma(u, r.solid_angle, r.left);
     Float s, c;
     sincos(angle, s, c);
     const Float safe_s = copysign(max(abs(s), 1e-12f), s);

@@ -95,16 +95,23 @@ TEST(Choice, ProbabilitiesAreThoseOfPicks) {
             const std::vector<double> p = probabilities(s.table, at);
             double sum = 0;
             for (const double x : p) sum += x;
-            EXPECT_NEAR(sum, 1, 1e-5) << s.name;
+            EXPECT_LE(sum, 1 + 1e-5) << s.name;
+            // Bounds of groups are cautious: a few picks end where nothing can light the receiver. They are lost, not wrong.
+            EXPECT_TRUE(sum == 0 || sum >= 0.7) << s.name << " " << sum;
             constexpr int k_draws = 100'000;
-            const std::vector<double> observed = picks(s.table, at, k_draws);
-            std::vector<double> expected(p), wrong(p);
+            std::vector<double> observed = picks(s.table, at, k_draws), expected, wrong;
             std::size_t possible = 0;
-            for (std::size_t i = 0; i < p.size(); ++i) {
-                expected[i] = p[i] * k_draws;
-                wrong[i] = k_draws / static_cast<double>(p.size());
-                possible += p[i] > 1e-4 ? 1 : 0;
+            for (const double x : p) {
+                expected.push_back(x * k_draws);
+                wrong.push_back(k_draws / static_cast<double>(p.size()));
+                possible += x > 1e-4 ? 1 : 0;
             }
+            double taken = 0;
+            for (const double x : observed) taken += x;
+            observed.push_back(k_draws - taken);
+            expected.push_back(std::max(0.0, 1 - sum) * k_draws);
+            wrong.push_back(0);
+            if (sum > 1 - 1e-5) expected.back() = observed.back() = 0;
             if (possible < 3) continue;
             const statistics::Chi2Result fit = statistics::chi2_test(observed, expected);
             EXPECT_FALSE(fit.rejected(k_level)) << s.name << " p " << fit.p;
@@ -118,21 +125,36 @@ TEST(Choice, TenThousandLampsAndTriangles) {
     for (const Receiver& at : receivers()) {
         double sum = 0;
         for (const double x : probabilities(s.table, at)) sum += x;
-        EXPECT_NEAR(sum, 1, 1e-3);
+        EXPECT_LE(sum, 1 + 1e-3);
+        EXPECT_GE(sum, 0.7);
     }
 }
 
-/// Sum over all emitters of the irradiance that single-emitter tables give is what the whole table gives.
+/// Sum over all emitters of the irradiance that single-emitter tables give is what the whole table gives: nothing that
+/// lights the receiver is ever pruned.
 TEST(Choice, WholeIsSumOfParts) {
-    const std::vector<LampInput> lamps = scattered_lamps(25, 3, 8);
-    for (const Receiver& at : {Receiver{{0, 0, 0}, {0, 0, 1}}, Receiver{{1, 2, 1.0f}, {0, 0.6f, 0.8f}}}) {
-        statistics::Moments whole, wrong;
-        const LightTable table = table_of(lamps);
-        for_each_draw(table, at, 200'000, 29, [&](const Draw& d) { whole.add(irradiance_of(d, at)); });
+    std::vector<LampInput> lamps = scattered_lamps(20, 3, 8);
+    for (int i = 0; i < 9; ++i) {
+        Case c = lamp_case("", scene::LightKind::sun, 1, tilted(0, 0, 0));
+        c.lamp.desc.angle = 0.2f * static_cast<float>(i % 3);
+        lamps.push_back(c.lamp);
+    }
+    const std::vector<light::EmissiveTriangle> triangles = scattered_triangles(40, 9);
+    light::WorldInput sky;
+    sky.color = {0.2f, 0.3f, 0.4f};
+    const LightTable table(lamps, triangles, &sky, {-8, -8, -8}, {8, 8, 8});
+    std::vector<LightTable> parts;
+    for (const LampInput& lamp : lamps) parts.push_back(table_of({lamp}));
+    for (const light::EmissiveTriangle& t : triangles) parts.push_back(LightTable({}, {t}, nullptr, {}, {}));
+    parts.push_back(LightTable({}, {}, &sky, {}, {}));
+    // The last receiver sees the suns cut by its horizon, and most lamps from behind.
+    for (const Receiver& at : {Receiver{{0, 0, 0}, {0, 0, 1}}, Receiver{{1, 2, 1.0f}, {0, 0.6f, 0.8f}}, receivers()[1]}) {
+        statistics::Moments whole;
+        for_each_draw(table, at, 400'000, 29, [&](const Draw& d) { whole.add(irradiance_of(d, at)); });
         double sum = 0, variance = 0;
-        for (const LampInput& lamp : lamps) {
+        for (const LightTable& one : parts) {
             statistics::Moments part;
-            for_each_draw(table_of({lamp}), at, 20'000, 31, [&](const Draw& d) { part.add(irradiance_of(d, at)); });
+            for_each_draw(one, at, 20'000, 31, [&](const Draw& d) { part.add(irradiance_of(d, at)); });
             sum += part.mean;
             variance += part.variance_of_mean();
         }
@@ -152,7 +174,7 @@ TEST(Choice, ImportantLampsAreChosenMore) {
 
 // Triangles ----------------------------------------------------------------------------------------------------------
 
-/// For hits with density `scale`·pdf_triangle, E[1/pdf over draws of one triangle] is its solid angle over the picks.
+/// The density of a hit at a drawn point is the density of the draw.
 TEST(Choice, TrianglePdfMatchesDraws) {
     const std::vector<light::EmissiveTriangle> triangles = scattered_triangles(60, 9);
     const LightTable table(scattered_lamps(12, 3, 8), triangles, nullptr, {-8, -8, -8}, {8, 8, 8});
