@@ -2,7 +2,7 @@
 """Are two engines' pictures the same? Seeds are the replicates: every figure is a mean over seeds with an interval.
 
 A value passes when its whole 98 % interval (Student, Welch) lies inside the bound: two one-sided tests at 1 %. It fails
-when its interval lies outside, and is inconclusive between; inconclusive is not a pass. Several values pass together only
+when its interval lies outside and is inconclusive between, which is not a pass. Several values pass together only
 if all do, which keeps the level. Bounds: 1 % for each channel's mean over the picture, 3 % for each of 8×8 blocks.
 """
 

@@ -19,7 +19,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = ROOT / "build" / "render-cache"
-SILENCE = 120.0
+SILENCE = 60.0
 """Seconds without a finished picture after which a process is stopped and its case has failed."""
 
 Job = tuple[str, str, int]

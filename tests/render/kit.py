@@ -27,7 +27,7 @@ class Case:
 CASES: dict[str, Case] = {}
 
 
-def case(samples: int = 16, wheels: bool = False, since: tuple[int, int] = (3, 4)):
+def case(samples: int = 32, wheels: bool = False, since: tuple[int, int] = (3, 4)):
     """Registers a function that fills an empty scene. Its docstring says what it tests."""
 
     def register(build: Callable[[bpy.types.Scene], None]):

@@ -105,8 +105,8 @@ def line(result: Result) -> str:
     (x, y), block = result.comparison.worst_block()
     text += f" mean {channel} {mean.difference:+.2%} ± {mean.half_width:.2%}"
     text += f"   block {x},{y} {block.difference:+.2%} ± {block.half_width:.2%}"
-    cpu = [sum(v) / len(v) if v else float("nan") for v in (result.cpu["ours"], result.cpu["reference"])]
-    text += f"   {cpu[0]:.2f} and {cpu[1]:.2f} CPU s"
+    cpu = [f"{sum(v) / len(v):.2f}" if v else "kept" for v in (result.cpu["ours"], result.cpu["reference"])]
+    text += f"   {cpu[0]} and {cpu[1]} CPU s"
     return text + (f"   mutant passed: {', '.join(result.survivors)}" if result.survivors else "")
 
 

@@ -5,8 +5,8 @@
     python worker.py -- JOBS.json          (with the bpy wheel)
 
 JOBS.json: {"engine": "CYCLES" or "CARDIOID", "threads": n, "progress": path, "jobs": [{"case", "seed", "out"}]}. Each
-job's picture goes through an EXR file, as an artist's does, and is kept as float32 (h, w, 4) in `out` (.npy), bottom row
-first. The progress file gets a line when a job starts and when it ends, so that a crash has a name.
+job's picture goes through an EXR file, as an artist's does, and is kept as float32 (h, w, 4) in `out` (.npy), bottom
+row first. The progress file gets a line when a job starts and when it ends, so that a crash has a name.
 """
 
 from __future__ import annotations

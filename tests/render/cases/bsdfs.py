@@ -26,7 +26,7 @@ def glossy_sharp(scene):
     kit.bare_sky()
 
 
-@case()
+@case(samples=96)
 def glossy_ggx(scene):
     """GGX, roughness 0.3."""
     kit.ball("BsdfGlossy", Color=(0.9, 0.7, 0.4), Roughness=0.3, distribution="GGX")
@@ -53,19 +53,19 @@ def glass_sharp(scene):
     kit.bare_sky()
 
 
-@case(samples=48)
+@case(samples=96)
 def glass_rough(scene):
     """Rough glass, GGX."""
     kit.ball("BsdfGlass", Color=(0.95, 1, 0.97), Roughness=0.35, IOR=1.45, distribution="GGX")
 
 
-@case(samples=48)
+@case(samples=96)
 def refraction(scene):
     """Refraction without reflection, slightly rough."""
     kit.ball("BsdfRefraction", Color=(1, 0.9, 0.8), Roughness=0.2, IOR=1.3, distribution="GGX")
 
 
-@case()
+@case(samples=96)
 def translucent(scene):
     """A translucent ball with the lamp behind it."""
     kit.ball_stage(common.material("ball", "BsdfTranslucent", Color=(0.7, 0.6, 0.3)), light=False)
@@ -121,7 +121,7 @@ def principled_plastic(scene):
     kit.ball_stage(kit.principled(Base_Color=(0.6, 0.08, 0.05), Roughness=0.25, Specular_IOR_Level=0.6))
 
 
-@case(wheels=True)
+@case(samples=96, wheels=True)
 def principled_metal(scene):
     """Metal, roughness 0.35."""
     kit.ball_stage(kit.principled(Base_Color=(0.9, 0.65, 0.3), Metallic=1.0, Roughness=0.35))
@@ -139,7 +139,7 @@ def principled_coat(scene):
     kit.ball_stage(kit.principled(Base_Color=(0.05, 0.1, 0.3), Roughness=0.6, Coat_Weight=1.0, Coat_Roughness=0.15))
 
 
-@case(samples=48, wheels=True)
+@case(samples=96, wheels=True)
 def principled_glass(scene):
     """Transmission, rough."""
     kit.ball_stage(kit.principled(Base_Color=(0.9, 0.95, 1.0), Roughness=0.3, Transmission_Weight=1.0, IOR=1.45))

@@ -22,14 +22,14 @@ def point_soft(scene):
     kit.lamp("POINT", (0.4, -1.3, 2.2), energy=120.0, shadow_soft_size=0.5)
 
 
-@case(samples=48)
+@case(samples=96)
 def spot_hard(scene):
     """A spot without blend."""
     kit.lamp_stage()
     kit.lamp("SPOT", (1.6, -1.6, 2.6), energy=500.0, shadow_soft_size=0.0, spot_size=math.radians(42), spot_blend=0.0)
 
 
-@case(samples=48, wheels=True)
+@case(samples=96, wheels=True)
 def spot_soft(scene):
     """A spot with radius and a wide blend."""
     kit.lamp_stage()
@@ -79,7 +79,7 @@ def area_ellipse(scene):
     kit.lamp("AREA", (1.2, -1.6, 2.4), shape="ELLIPSE", size=1.6, size_y=0.5, energy=110.0)
 
 
-@case(samples=48)
+@case(samples=96)
 def area_spread(scene):
     """An area lamp whose spread is 60°."""
     kit.lamp_stage()
@@ -94,7 +94,7 @@ def area_scaled(scene):
     lamp.scale = (2.5, 0.8, 1.0)
 
 
-@case(samples=32)
+@case(samples=96)
 def many_lamps(scene):
     """Twelve lamps of different colours and strengths: choosing between them must not change the picture."""
     kit.lamp_stage()
@@ -116,7 +116,7 @@ def lamp_mixed(scene):
         bare.data.use_shadow = False
 
 
-@case(samples=32, wheels=True)
+@case(samples=96, wheels=True)
 def emissive_mesh(scene):
     """A ball and a panel that emit, as meshes."""
     kit.lamp_stage()
@@ -136,7 +136,7 @@ def lamp_strength_nodes(scene):
     g.surface(g.node("Emission", {"Color": (0.4, 1.0, 0.6), "Strength": 2.0}))
 
 
-@case(samples=48)
+@case(samples=96)
 def lamp_visibility(scene):
     """A lamp hidden from diffuse rays and a block hidden from shadow and glossy rays."""
     kit.ball_stage(common.material("mirror", "BsdfGlossy", Color=(0.9, 0.9, 0.9), Roughness=0.15, distribution="GGX"))

@@ -13,7 +13,7 @@ def image_texture(scene):
     kit.card(g.node("TexImage", image=kit.image("picture", kit.picture())).outputs["Color"], g)
 
 
-@case()
+@case(samples=96)
 def image_mapping(scene):
     """A Non-Color image, nearest, clipped, under a Mapping node that scales, turns and moves."""
     g = kit.graph("card")
@@ -150,7 +150,7 @@ def geometry_node(scene):
     kit.ball_stage(g.surface(g.node("BsdfDiffuse", {"Color": shaded})))
 
 
-@case()
+@case(samples=96)
 def roughness_texture(scene):
     """Roughness of a glossy floor from a checker, Generated coordinates on a ball."""
     g = kit.graph("ball")

@@ -7,7 +7,7 @@ import kit
 from kit import case
 
 
-@case(samples=32, wheels=True)
+@case(wheels=True)
 def hdri(scene):
     """An environment picture with a sun in it, turned by a Mapping node: importance sampling of the world."""
     kit.lamp_stage()
@@ -77,7 +77,7 @@ def camera_clip(scene):
     scene.camera.data.clip_start, scene.camera.data.clip_end = 4.95, 6.5
 
 
-@case(wheels=True)
+@case(samples=96, wheels=True)
 def transparent_film(scene):
     """Transparent film: the sky lights but is not seen, alpha is compared too."""
     kit.lamp_stage()

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Efficiency of an engine over its rival's, scene by scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def efficiency(rows: list[dict], ours: str, rival: str, path: Path) -> bool:
+    """Writes a bar chart of the ratios with quartiles and the bars asked for; False without matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    chosen = [r for r in rows if r["engine"] == ours and r["mask"] == "all"]
+    figure, axes = pyplot.subplots(figsize=(1.6 + 1.3 * max(len(chosen), 2), 4.2), layout="constrained")
+    for shift, key, label in ((-0.2, "ratio", "whole process"), (0.2, "ratio_net", "without start-up and export")):
+        x = [i + shift for i in range(len(chosen))]
+        y = [r[key] for r in chosen]
+        spread = [[r[key] - r[f"{key}_low"] for r in chosen], [r[f"{key}_high"] - r[key] for r in chosen]]
+        axes.bar(x, y, 0.38, yerr=spread, capsize=3, label=label)
+    for i, row in enumerate(chosen):
+        axes.plot([i - 0.45, i + 0.45], [row["bar"]] * 2, color="black", linewidth=1.2)
+    axes.axhline(1.0, color="grey", linewidth=0.8, linestyle=":")
+    axes.set_xticks(range(len(chosen)), [r["scene"].replace("_", "\n") for r in chosen])
+    axes.set_ylabel(f"efficiency over {rival}")
+    axes.set_title("1 / (relative MSE · CPU seconds), median of pairs; black: the bar")
+    axes.legend()
+    figure.savefig(path, dpi=120)
+    pyplot.close(figure)
+    return True
