@@ -36,6 +36,7 @@ void in_parallel(std::size_t count, Task task) {
 
 struct ImageStore::Impl {
     FileCache files;
+    SpillFile spill;
     std::vector<std::unique_ptr<Picture>> pictures;
     std::unique_ptr<Picture> missing = std::make_unique<Picture>();
     TileCache tiles;   // after the pictures, whose tiles it frees
@@ -99,16 +100,13 @@ struct ImageStore::Impl {
         warn(std::move(message));
     }
 
-    /// A file that would fill the cache alone, or is made of tiles and may not be needed whole, is read in parts.
+    /// While everything fits, nothing is ever dropped, and no use of a tile is noted.
     void plan() {
         std::int64_t total = 0;
         for (const auto& picture : pictures) total += picture->texture().bytes();
-        const bool tight = total > tiles.budget();
         for (const auto& picture : pictures) {
-            Texture& texture = picture->texture();
-            texture.evictable = tight && picture->repeatable();
-            picture->read_by_parts(picture->can_read_parts() && tight && (picture->tiled() || texture.bytes() > tiles.budget() / 2));
-            tiles.add(texture);
+            if (total > tiles.budget() && picture->repeatable()) picture->make_evictable(spill);
+            tiles.add(picture->texture());
         }
         tiles.add(missing->texture());
     }

@@ -55,7 +55,13 @@ Picture::Picture(const scene::ImageDesc& image, std::unique_ptr<Source> source, 
     texture_.associate = has_alpha_ && !separate && info.straight_alpha;
     texture_.may_divide = has_alpha_ && !separate;
     texture_.resize(info.width, info.height);
-    can_read_parts_ = image.source == scene::ImageSource::file;
+}
+
+void Picture::make_evictable(SpillFile& spill) {
+    texture_.evictable = true;
+    if (tiled()) return;
+    spill_ = &spill;
+    spill_begin_ = spill.allocate(texture_.bytes());
 }
 
 void Picture::publish(int tile, TileMemory memory, TileCache& cache) {
@@ -63,13 +69,15 @@ void Picture::publish(int tile, TileMemory memory, TileCache& cache) {
 }
 
 std::string Picture::load(int tile, TileCache& cache) {
+    // Without the lock: any number of threads can read tiles back.
+    if (spilled_.load() && load_spilled(tile, cache)) return {};
     const std::lock_guard one_at_a_time(loading_);
-    if (texture_.tiles[tile].load()) return {};
+    if (texture_.tiles[tile].load() || (spilled_.load() && load_spilled(tile, cache))) return {};
     std::string problem;
     try {
         if (!source_ || failed_)
             load_magenta(tile, cache);
-        else if (by_parts_)
+        else if (in_parts())
             load_part(tile, cache);
         else
             load_whole(cache);
@@ -88,19 +96,33 @@ std::string Picture::load(int tile, TileCache& cache) {
 void Picture::load_whole(TileCache& cache) {
     const std::int64_t tile_bytes = static_cast<std::int64_t>(texture_.tile_bytes());
     int row = texture_.tiles_y - 1;
+    bool all_spilled = spill_ != nullptr;
     source_->read_all(texture_.height - row * k_tile, [&](int, int rows, const std::byte* texels) {
         for (int column = 0; column < texture_.tiles_x; ++column) {
             const int tile = row * texture_.tiles_x + column;
-            if (texture_.tiles[tile].load()) continue;
+            if (!all_spilled && texture_.tiles[tile].load()) continue;
             cache.reserve(tile_bytes);
             TileMemory memory = new_tile(texture_);
             const std::size_t texel = channel_bytes(conversion_.source.storage) * static_cast<std::size_t>(conversion_.source.delivered());
             non_finite_ += fill_tile(memory.get(), texture_, conversion_, texels + texel * static_cast<std::size_t>(column) * k_tile,
                                      static_cast<std::size_t>(texture_.width), tile_width(texture_, tile), rows);
+            all_spilled = all_spilled && spill_->write(spill_place(tile), {memory.get(), texture_.tile_bytes()});
             publish(tile, std::move(memory), cache);
         }
         --row;
     });
+    spilled_ = all_spilled;
+}
+
+bool Picture::load_spilled(int tile, TileCache& cache) {
+    cache.reserve(static_cast<std::int64_t>(texture_.tile_bytes()));
+    TileMemory memory = new_tile(texture_);
+    const bool read = spill_->read(spill_place(tile), {memory.get(), texture_.tile_bytes()});
+    if (read)
+        publish(tile, std::move(memory), cache);
+    else
+        cache.release(static_cast<std::int64_t>(texture_.tile_bytes()));
+    return read;
 }
 
 void Picture::load_part(int tile, TileCache& cache) {

@@ -4,6 +4,7 @@
 
 #include "image/convert.h"
 #include "image/source.h"
+#include "image/spill_file.h"
 #include "image/tile_cache.h"
 
 #include <memory>
@@ -26,12 +27,12 @@ public:
     /// Can be loaded again, so that tiles may be dropped.
     bool repeatable() const { return source_ && source_->repeatable(); }
 
-    /// Decided once the sizes of all images are known: read at once, or tile by tile.
-    void read_by_parts(bool parts) { by_parts_ = parts; }
-    bool can_read_parts() const { return source_ && can_read_parts_; }
-    bool in_parts() const { return by_parts_; }
-    /// The file is made of tiles.
-    bool tiled() const { return conversion_.source.tiled; }
+    /// The file is made of tiles, so that one can be read without the others.
+    bool tiled() const { return source_ && source_->info().tiled; }
+    bool in_parts() const { return tiled() && texture_.evictable; }
+    /// Decided once the sizes of all images are known: tiles may be dropped. Files of tiles are then read tile by tile;
+    /// other images are decoded once, into `spill`.
+    void make_evictable(SpillFile& spill);
 
     /// Makes the tile readable, and others with it when the file is read whole. What cannot be read becomes magenta; the
     /// return value then says why (once). The caller must not be reading tiles.
@@ -43,6 +44,8 @@ public:
 private:
     void load_whole(TileCache& cache);
     void load_part(int tile, TileCache& cache);
+    bool load_spilled(int tile, TileCache& cache);
+    std::int64_t spill_place(int tile) const { return spill_begin_ + static_cast<std::int64_t>(texture_.tile_bytes()) * tile; }
     void load_magenta(int tile, TileCache& cache);
     void publish(int tile, TileMemory memory, TileCache& cache);
 
@@ -50,7 +53,10 @@ private:
     std::unique_ptr<Source> source_;
     Conversion conversion_;
     Texture texture_;
-    bool has_alpha_ = false, by_parts_ = false, can_read_parts_ = false, failed_ = false;
+    bool has_alpha_ = false, failed_ = false;
+    SpillFile* spill_ = nullptr;
+    std::int64_t spill_begin_ = 0;
+    std::atomic<bool> spilled_{false};   ///< the spill file has every tile
     std::size_t non_finite_ = 0;
     std::mutex loading_;
 };

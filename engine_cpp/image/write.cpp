@@ -6,10 +6,15 @@
 #include "scene/error.h"
 #include "scene/replace_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <utility>
 
 namespace cardioid::image {
 namespace {
@@ -25,7 +30,21 @@ void check_size(const std::string& path, int width, int height, std::size_t chan
                        std::to_string(channels) + " channels");
 }
 
-/// `top`: the first value of the top row; rows follow at -row values.
+struct Stream {
+    explicit Stream(std::FILE* opened) : file(opened) {}
+    ~Stream() {
+        if (file) std::fclose(file);
+    }
+    Stream(const Stream&) = delete;
+    Stream& operator=(const Stream&) = delete;
+    /// Everything that was written is in the file.
+    bool complete() {
+        const bool good = std::fflush(file) == 0 && std::ferror(file) == 0;
+        return std::fclose(std::exchange(file, nullptr)) == 0 && good;
+    }
+    std::FILE* file;
+};
+
 template <class T>
 void write_rows(const std::string& path, const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const T* pixels) {
     const auto row = static_cast<OIIO::stride_t>(spec.width) * spec.nchannels;
@@ -33,11 +52,14 @@ void write_rows(const std::string& path, const std::string& format, const OIIO::
     scene::replace_file_by_name(path, [&](const std::string& temporary) {
         const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
         if (!out) fail(path, OIIO::geterror());
-        const bool written = out->open(temporary, spec) &&
-                             out->write_image(type, top, OIIO::AutoStride, -row * static_cast<OIIO::stride_t>(sizeof(T)));
-        // Closing writes what is still held, so it can be the call that finds the disk full.
-        const bool closed = written && out->close();
-        if (!closed) fail(path, out->has_error() ? out->geterror() : "the file could not be completed");
+        // A stream of our own, because OIIO's PNG writer does not report a full disk.
+        Stream stream(std::fopen(temporary.c_str(), "wb"));
+        if (!stream.file) fail(path, std::strerror(errno));
+        OIIO::Filesystem::IOFile proxy(stream.file, OIIO::Filesystem::IOProxy::Write);
+        const bool written = out->set_ioproxy(&proxy) && out->open(temporary, spec) &&
+                             out->write_image(type, top, OIIO::AutoStride, -row * static_cast<OIIO::stride_t>(sizeof(T))) && out->close();
+        if (!stream.complete()) fail(path, std::strerror(errno));
+        if (!written) fail(path, out->has_error() ? out->geterror() : "the file could not be completed");
     });
 }
 
