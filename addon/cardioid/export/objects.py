@@ -50,7 +50,8 @@ class Objects:
             return
         try:
             if obj.type == "MESH":
-                self._place(instance, obj)
+                if self._view_layer.use_solid:
+                    self._place(instance, obj)
             elif obj.type == "LIGHT":
                 self._lamp(instance, obj)
             elif obj.type in _UNSUPPORTED:

@@ -32,7 +32,7 @@ def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptio
         target.set_settings({**options.settings, "width": options.resolution[0], "height": options.resolution[1],
                              "crop": list(options.crop)})
         with _timed(timings, "world"):
-            _world(target, world.current(source, layer), materials)
+            _world(target, world.current(source, layer) if layer.use_sky else None, materials)
         with _timed(timings, "objects"):
             Objects(target, depsgraph, layer, materials, options, warnings).export()
     exported.warnings[:] = dict.fromkeys(warnings)

@@ -221,6 +221,15 @@ def test_holdout_object_and_collections_of_the_view_layer(scene):
     assert by_name(found, "Plain")["visibility"] == names.ALL
 
 
+def test_filters_of_the_view_layer(scene):
+    scene.world = bpy.data.worlds.new("Sky")
+    add(quad())
+    add(bpy.data.lights.new("Lamp", "POINT"))
+    bpy.context.view_layer.use_sky = bpy.context.view_layer.use_solid = False
+    found = export().scene
+    assert found.world is None and not found.instances and len(found.lights) == 1
+
+
 def test_shadow_catcher_is_named_for_meshes_only():
     add(quad(), "Catcher", is_shadow_catcher=True)
     add(bpy.data.lights.new("Lamp", "POINT"))
