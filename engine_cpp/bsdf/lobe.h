@@ -50,6 +50,15 @@ struct alignas(64) Lobe {
     Row tint_transmission[3];  ///< glass: factor of the transmitted part, on top of weight
 };
 
+/// Diffuse-like: counts as a diffuse bounce, or as transmission where it sends light through.
+constexpr bool is_diffuse_kind(LobeKind kind) {
+    return kind != LobeKind::ggx_reflection && kind != LobeKind::ggx_refraction && kind != LobeKind::ggx_glass;
+}
+
+constexpr bool sends_light_through(LobeKind kind) {
+    return kind == LobeKind::translucent || kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass;
+}
+
 /// At or under this alpha a GGX lane is a delta.
 inline constexpr float k_delta_alpha = 1e-4f;
 

@@ -16,10 +16,22 @@ struct BsdfEval {
     Float pdf_d = 0.0f, pdf_s = 0.0f;
 };
 
-BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness) {
+/// Visibility bit that decides whether a lamp lights a lobe in direction wi.
+Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
+    const Int reflected(bsdf::is_diffuse_kind(kind) ? scene::visible_diffuse : scene::visible_glossy);
+    if (!bsdf::sends_light_through(kind)) return reflected;
+    return select(dot(wi, ng) < Float(0.0f), Int(scene::visible_transmission), reflected);
+}
+
+/// `visibility`: bits of the light, to leave out the lobes that it must not light; null when every lamp lights all.
+BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness, const Int* visibility) {
     BsdfEval sum;
     for (int k = 0; k < chunk.lobes; ++k) {
-        const LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
+        LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
+        if (visibility) {
+            const Mask seen = (*visibility & lobe_visibility(chunk.lobe[k].kind, wi, ng)) != Int(0);
+            e.f_cos = select(seen, e.f_cos, Spectrum(0.0f));
+        }
         const Float pdf = e.pdf * load(chunk.pick[k] + i);
         if (caustic_roughness <= 0) {
             // Only deltas are specular, and those evaluate to 0.
@@ -73,7 +85,9 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     scratch.counters.light_samples += static_cast<std::uint64_t>(count(active));
     if (none(lit)) return;
 
-    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings.caustic_roughness);
+    if (scene.lights_are_limited) lit &= byte_of(depth, 0) <= light.max_bounces;
+    const Int* visibility = scene.lights_are_limited ? &light.visibility : nullptr;
+    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings.caustic_roughness, visibility);
     lit &= not_black(f.d) | not_black(f.s);
     if (none(lit)) return;
     Spectrum radiance = light.radiance;

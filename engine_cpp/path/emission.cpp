@@ -56,8 +56,7 @@ void Tracer::add_surface_emission(int material, const std::int32_t* list) {
 }
 
 void Tracer::add_lamp_hits() {
-    const int lamps = scene.has_lights ? hittable_lamps(*scene.lights) : 0;
-    if (lamps == 0) return;
+    if (!scene.has_lights || hittable_lamps(*scene.lights) == 0) return;
     const path::RayState& rays = *now;
     for (int i = 0; i < rays.n; i += W) {
         const Mask lanes = first_lanes(rays.n - i);
@@ -65,11 +64,12 @@ void Tracer::add_lamp_hits() {
         const LightReceiver from{load3(rays.origin, i), load3(rays.from_normal, i)};
         const Vec3 d = load3(rays.direction, i);
         const Float t_max = load(scratch.hits.t + i), t_min = load(rays.t_min + i), pdf = load(rays.pdf + i);
-        const Int seen_by = visibility_bit(load(rays.flags + i));
-        for (int which = 0; which < lamps; ++which) {
+        const Int seen_by = visibility_bit(load(rays.flags + i)), bounce = byte_of(load(rays.depth + i), 0) - Int(1);
+        LampWalk walk(*scene.lights, from.p, d, t_max, lanes);
+        for (int which = walk.next(); which >= 0; which = walk.next()) {
             const LampHit h = intersect_lamp(*scene.lights, which, from, d, t_max, lanes);
             // A ray that passed a transparent surface keeps its origin: lamps before t_min were found already.
-            const Mask hit = h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0));
+            const Mask hit = h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0)) & (bounce <= Int(h.max_bounces));
             if (none(hit)) continue;
             Spectrum radiance = h.radiance;
             if (h.program >= 0) {

@@ -9,14 +9,6 @@ namespace {
 
 constexpr std::int32_t k_ray_flags = 0xff;
 
-bool sends_light_through(bsdf::LobeKind kind) {
-    return kind == bsdf::LobeKind::translucent || kind == bsdf::LobeKind::ggx_refraction || kind == bsdf::LobeKind::ggx_glass;
-}
-
-bool is_diffuse_kind(bsdf::LobeKind kind) {
-    return kind == bsdf::LobeKind::diffuse || kind == bsdf::LobeKind::translucent || kind == bsdf::LobeKind::sheen;
-}
-
 void scale_rows(Row (&rows)[3], int i, Mask dark) {
     for (auto& row : rows) store(row + i, select(dark, Float(0.0f), load(row + i)));
 }
@@ -32,7 +24,7 @@ void drop_caustic_lobes(const scene::Settings& settings, bsdf::Lobe& lobe, int i
 
 /// Filter Glossy: after an unlikely bounce, near-mirrors are roughened.
 void blur_glossy(bsdf::Lobe& lobe, int i, Float least_alpha) {
-    if (is_diffuse_kind(lobe.kind)) return;
+    if (bsdf::is_diffuse_kind(lobe.kind)) return;
     store(lobe.alpha_x + i, max(load(lobe.alpha_x + i), least_alpha));
     store(lobe.alpha_y + i, max(load(lobe.alpha_y + i), least_alpha));
 }
@@ -68,7 +60,7 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
         c.valid |= ok;
         c.delta |= ok & s.delta;
         c.transmitted |= ok & s.transmitted;
-        if (is_diffuse_kind(lobe.kind)) {
+        if (bsdf::is_diffuse_kind(lobe.kind)) {
             c.diffuse |= ok;
             c.blur = select(ok, Float(0.3f), c.blur);
         } else {
@@ -214,7 +206,7 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     chunk->n = n;
     chunk->lobes = out.lobes;
     chunk->transmissive = false;
-    for (int k = 0; k < out.lobes; ++k) chunk->transmissive |= sends_light_through(out.lobe[k].kind);
+    for (int k = 0; k < out.lobes; ++k) chunk->transmissive |= bsdf::sends_light_through(out.lobe[k].kind);
     scatter(*chunk, list);
     if (chunk->lobes > 0 && scene.has_lights) {
         *scratch.last_chunk = chunk;

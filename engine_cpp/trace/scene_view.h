@@ -64,6 +64,7 @@ struct SceneView {
     int world_program = 0;                          ///< id of the world
     const light::LightData* lights = nullptr;
     bool has_lights = false;
+    bool lights_are_limited = false;                ///< some lamp or the world is hidden from a kind of lobe or ends early
     bool has_world = false;                         ///< something shines from outside
     std::uint8_t world_visibility = scene::visible_all;
     int world_max_bounces = 1024;

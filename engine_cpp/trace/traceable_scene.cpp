@@ -28,6 +28,11 @@ private:
     Clock::time_point start_;
 };
 
+bool is_limited(std::uint8_t visibility, int max_bounces, int path_bounces) {
+    constexpr int lobes = scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission;
+    return (visibility & lobes) != lobes || max_bounces < path_bounces;
+}
+
 bool is_black(Float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 void scene_bounds(const GeometryPool& pool, Float3& lo, Float3& hi) {
@@ -276,6 +281,12 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
         const nodes::ProgramInfo& info = materials[view.world_program].info;
         world.sampling = desc.world->sampling;
         world.map_resolution = desc.world->map_resolution;
+        if (world.sampling == scene::WorldSampling::automatic) {
+            world.map_resolution = 0;
+            for (int i = 0; i < images->size(); ++i) world.map_resolution = std::max(world.map_resolution, images->width(i));
+        }
+        world.visibility = desc.world->visibility;
+        world.max_bounces = desc.world->max_bounces;
         world.constant = info.constant_emission;
         world.color = info.emission_value;
         world.program = info.constant_emission ? -1 : view.world_program;
@@ -286,6 +297,12 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
     lights = std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, lo, hi);
     view.lights = &lights->data();
     view.has_lights = !lights->empty();
+    for (const auto& l : lamps) {
+        view.lights_are_limited = view.lights_are_limited || is_limited(l.desc.visibility, l.desc.max_bounces, desc.settings.max_bounces);
+    }
+    if (desc.world) {
+        view.lights_are_limited = view.lights_are_limited || is_limited(desc.world->visibility, desc.world->max_bounces, desc.settings.max_bounces);
+    }
 }
 
 }  // namespace cardioid::trace
