@@ -36,7 +36,8 @@ inline SeenBall see_ball(const light::LightData& lights, RecordIndex index, Mask
     b.to_center = fetch3(lights.lamp, index, lamp::position) - p;
     b.d2 = max(length_squared(b.to_center), 1e-30f);
     b.distance = sqrt(b.d2);
-    b.toward = b.to_center * (1.0f / b.distance);
+    // In the very middle of a lamp any direction is as good as another.
+    b.toward = select(b.d2 > Float(1e-30f), b.to_center * (1.0f / b.distance), Vec3{0.0f, 0.0f, 1.0f});
     b.r2 = fetch(lights.lamp, index, lamp::radius_squared);
     b.disk = disk;
     b.within = ~disk & (b.d2 <= b.r2);
