@@ -60,8 +60,9 @@ float mix_hue(float a, float b, float t, const std::string& way) {
         if (a > b && b - a > -0.5f) return straight(a, b + 1);
         return straight(a, b);
     }
-    if (way == "CCW") return a > b ? straight(a, b + 1) : straight(a, b);
-    if (way == "CW") return a < b ? straight(a + 1, b) : straight(a, b);
+    // Blender counts from the right stop to the left one.
+    if (way == "CCW") return a < b ? straight(a + 1, b) : straight(a, b);
+    if (way == "CW") return a > b ? straight(a, b + 1) : straight(a, b);
     if (a < b && b - a > 0.5f) return straight(a + 1, b);
     if (a > b && b - a < -0.5f) return straight(a, b + 1);
     return straight(a, b);

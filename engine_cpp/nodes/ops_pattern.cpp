@@ -34,7 +34,7 @@ void op_checker(const Machine& m, const Instruction& in) {
     for (int i = 0; i < m.end; i += W) {
         const Vec3 q = p.at(i);
         const Mask odd = (parity(q.x) ^ parity(q.y) ^ parity(q.z)) != Int(0);
-        store(m.dst(in) + i, select(odd, Float(0.0f), Float(1.0f)));
+        store(m.dst(in) + i, select(odd, Float(1.0f), Float(0.0f)));
     }
 }
 
