@@ -17,11 +17,11 @@ elapsed_since() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b 
 
 # stage NAME COMMAND...: runs the command with its output in a log; on failure shows the end of the log and stops.
 stage() {
-    local name=$1 start=$EPOCHREALTIME log code=0
+    local title=$1 start=$EPOCHREALTIME log code=0
     shift
     mkdir -p "$stage_log_dir"
-    log=$stage_log_dir/${name//[^A-Za-z0-9]/_}.log
-    printf '%-34s' "$name ..."
+    log=$stage_log_dir/${title//[^A-Za-z0-9]/_}.log
+    printf '%-34s' "$title ..."
     set +e   # a subshell of its own, so that a function stops at its first error as a script does
     (set -e; "$@") >"$log" 2>&1 </dev/null
     code=$?
@@ -29,7 +29,7 @@ stage() {
     if ((code != 0)); then
         say "FAILED after $(elapsed_since "$start") s"
         stage_excerpt "$log" >&2
-        die "'$name' failed (exit code $code). The whole log: $log"
+        die "'$title' failed (exit code $code). The whole log: $log"
     fi
     say "$(elapsed_since "$start") s"
 }
