@@ -7,10 +7,9 @@ from pathlib import Path
 import bpy
 import pytest
 
-_HERE = Path(__file__).resolve()
-for _folder in (_HERE.parents[1], _HERE.parents[3] / "addon", _HERE.parent):
-    if str(_folder) not in sys.path:
-        sys.path.insert(0, str(_folder))
+_ADDON = str(Path(__file__).resolve().parents[3] / "addon")
+if _ADDON not in sys.path:
+    sys.path.insert(0, _ADDON)
 
 
 @pytest.fixture

@@ -7,8 +7,9 @@ import bpy
 import pytest
 from bpy_extras.object_utils import world_to_camera_view
 from cardioid.export import ExportError
-from kit import add, export
 from mathutils import Vector
+
+from .kit import add, export
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import addon_utils
 import bpy
 import pytest
-from kit import add, export
+
+from .kit import add, export
 
 _FOLDER = Path(__file__).resolve().parents[4] / "shared" / "blends"
 _FILES = sorted(_FOLDER.glob("**/*.blend"))

@@ -3,7 +3,8 @@
 
 import bpy
 import pytest
-from kit import add, by_name, export, material, quad
+
+from .kit import add, by_name, export, material, quad
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from kit import add, export, material, quad
+
+from .kit import add, export, material, quad
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -4,7 +4,8 @@
 import bpy
 import pytest
 from cardioid.export import compat, names
-from kit import add, by_name, export
+
+from .kit import add, by_name, export
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from cardioid.export import arrays, compat
 from cardioid.export import mesh as mesh_export
-from kit import add, export, material, quad
+
+from .kit import add, export, material, quad
 
 pytestmark = pytest.mark.usefixtures("scene")
 

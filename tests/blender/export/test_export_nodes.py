@@ -4,7 +4,8 @@
 import bpy
 import pytest
 from cardioid.export import compat
-from kit import add, by_name, export, material, quad
+
+from .kit import add, by_name, export, material, quad
 
 pytestmark = pytest.mark.usefixtures("scene")
 

@@ -6,7 +6,8 @@ import time
 import bpy
 import pytest
 from cardioid.export import ExportCancelled, build_scene, compat, names
-from kit import add, by_name, export, material, quad
+
+from .kit import add, by_name, export, material, quad
 
 pytestmark = pytest.mark.usefixtures("scene")
 
