@@ -121,6 +121,23 @@ private:
     alignas(64) unsigned char memory_[capacity];
 };
 
+/// One vertex of a path that is watched (cardioid-render --pixel).
+struct LoggedVertex {
+    int path, material, instance, triangle;
+    std::int32_t flags, depth;       ///< of the arriving ray, as in RayState
+    float position[3], normal[3], throughput[3];
+    float distance;
+    int lobes;
+    float pick[bsdf::k_max_lobes];   ///< probability of each lobe
+    bsdf::LobeKind kind[bsdf::k_max_lobes];
+};
+
+/// Where to write the vertices of a batch; more than `capacity` are dropped.
+struct PathLog {
+    LoggedVertex* vertex = nullptr;
+    int capacity = 0, n = 0;
+};
+
 /// All memory of one thread; nothing is allocated while tracing.
 struct alignas(64) Scratch {
     RayState rays[2];
@@ -137,6 +154,7 @@ struct alignas(64) Scratch {
     std::int32_t* bins = nullptr;            ///< material_count + 2 counters, owned by the caller
     Counters counters;
     const std::atomic<bool>* cancelled = nullptr;
+    PathLog* log = nullptr;
 };
 
 /// Traces the batch; with width 1, 8 or 16 lanes.

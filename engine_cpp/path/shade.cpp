@@ -208,9 +208,34 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     chunk->transmissive = false;
     for (int k = 0; k < out.lobes; ++k) chunk->transmissive |= bsdf::sends_light_through(out.lobe[k].kind);
     scatter(*chunk, list);
+    if (scratch.log) log_vertices(*chunk, material);
     if (chunk->lobes > 0 && scene.has_lights) {
         *scratch.last_chunk = chunk;
         scratch.last_chunk = &chunk->next;
+    }
+}
+
+void Tracer::log_vertices(const path::VertexChunk& chunk, int material) {
+    path::PathLog& log = *scratch.log;
+    for (int i = 0; i < chunk.n && log.n < log.capacity; ++i) {
+        path::LoggedVertex& v = log.vertex[log.n++];
+        v.path = chunk.path[i];
+        v.material = material;
+        v.instance = scratch.shading.instance[i];
+        v.triangle = scratch.shading.triangle[i];
+        v.flags = chunk.flags[i];
+        v.depth = chunk.depth[i];
+        v.distance = chunk.distance[i];
+        v.lobes = chunk.lobes;
+        for (int c = 0; c < 3; ++c) {
+            v.position[c] = chunk.position[c][i];
+            v.normal[c] = chunk.normal[c][i];
+            v.throughput[c] = chunk.throughput[c][i];
+        }
+        for (int k = 0; k < chunk.lobes; ++k) {
+            v.pick[k] = chunk.pick[k][i];
+            v.kind[k] = chunk.lobe[k].kind;
+        }
     }
 }
 

@@ -37,6 +37,7 @@ struct Tracer {
     void scatter(path::VertexChunk& chunk, const std::int32_t* rays);
     path::VertexChunk* new_record(int material);
     void write_first_hit(const std::int32_t* rays, int n);
+    void log_vertices(const path::VertexChunk& chunk, int material);
 
     // direct.cpp: next-event estimation for all recorded vertices.
     void add_direct_light();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cardioid-render: renders a saved scene file, as the add-on's Export operator or Scene.save() writes it.
 #include "image/write.h"
+#include "render/replay.h"
 #include "render/session.h"
 #include "scene/error.h"
 #include "scene/limits.h"
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <iostream>
 #include <span>
+#include <vector>
 
 namespace {
 
@@ -24,6 +26,7 @@ struct Options {
     int samples = 0, threads = -1, lanes = 0;
     double time_limit = -1;
     long long seed = -1;
+    std::vector<int> pixel;
     bool quiet = false;
 };
 
@@ -37,6 +40,8 @@ int parse(int argc, char** argv, Options& o) {
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--lanes", o.lanes, "width of the kernels: 1, 8 or 16 (0: the best here)")->check(CLI::IsMember({0, 1, 8, 16}));
     app.add_option("--stats", o.stats, "write what was counted as JSON");
+    app.add_option("--pixel", o.pixel, "x,y,sample: trace this sample alone and print its vertices (x, y from the bottom left)")
+        ->delimiter(',')->expected(3);
     app.add_flag("-q,--quiet", o.quiet, "no progress");
     CLI11_PARSE(app, argc, argv);
     return -1;
@@ -84,6 +89,10 @@ int run(const Options& o) {
     const auto problems = scene::validate(*desc);
     for (const auto& p : problems) std::cerr << (p.severity == scene::Severity::error ? "error: " : "warning: ") << p.message << '\n';
     if (scene::has_errors(problems)) return 2;
+    if (!o.pixel.empty()) {
+        std::cout << render::replay_sample(*desc, o.pixel[0], o.pixel[1], o.pixel[2]);
+        return 0;
+    }
     const std::string memory = scene::memory_problem(*desc);
     if (!memory.empty()) throw scene::SceneError(memory);
     render::Session session(desc, o.lanes);
