@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string_view>
 
@@ -77,6 +78,13 @@ ColorSpace built_in(const std::string& name, bool is_float) {
     return {is_float ? Transfer::none : Transfer::srgb, false, nullptr};
 }
 
+/// OCIO's messages begin by quoting the file; the end says why.
+std::string last_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    const auto at = text.rfind('\n');
+    return at == std::string::npos ? text : text.substr(at + 1);
+}
+
 /// As Cycles judges two values of a curve alike.
 bool alike(float a, float b) {
     if (std::abs(a - b) < 1e-6f) return true;
@@ -110,7 +118,7 @@ Transfer recognise(const ColorProcessor& processor) {
 
 struct ColorSpaces::Impl {
     std::string path, problem;
-    bool loaded = false;
+    bool loaded = false, checked = false, is_plain = false;
     OCIO::ConstConfigRcPtr config;
     std::map<std::string, ColorSpace> found;
 
@@ -125,9 +133,27 @@ struct ColorSpaces::Impl {
         try {
             config = OCIO::Config::CreateFromFile(path.c_str());
         } catch (const std::exception& bad) {
-            // OCIO's messages quote the file; the last line says why.
-            problem = bad.what();
+            problem = last_line(bad.what());
         }
+    }
+
+    /// The file's scene_linear role is Rec.709, so that standard names mean what they mean without it. Reading the whole
+    /// configuration takes up to a tenth of a second, and most scenes use standard names only.
+    bool plain() {
+        if (!checked) {
+            checked = true;
+            std::ifstream file(path);
+            std::string line;
+            while (!is_plain && std::getline(file, line)) {
+                const auto at = line.find("scene_linear:");
+                if (at == std::string::npos) continue;
+                const auto begin = line.find_first_not_of(" \t", at + 13), end = line.find_last_not_of(" \t\r");
+                if (begin == std::string::npos) break;
+                is_plain = among(k_linear, line.substr(begin, end - begin + 1));
+                break;
+            }
+        }
+        return is_plain;
     }
 
     /// False: the configuration does not know the name or cannot convert it.
@@ -156,13 +182,13 @@ ColorSpaces::~ColorSpaces() = default;
 const std::string& ColorSpaces::config_problem() const { return impl_->problem; }
 
 ColorSpace ColorSpaces::find(const std::string& name, bool is_float) {
-    if (const ColorSpace standard = built_in(name, is_float); standard.transfer == Transfer::data && standard.known)
-        return standard;
+    const ColorSpace standard = built_in(name, is_float);
+    if (standard.known && (standard.transfer == Transfer::data || impl_->path.empty() || impl_->plain())) return standard;
     if (!impl_->loaded) impl_->load();
-    if (!impl_->config) return built_in(name, is_float);
+    if (!impl_->config) return standard;
     auto [entry, fresh] = impl_->found.try_emplace(name);
     if (fresh && !impl_->from_config(name, entry->second)) entry->second.known = false;
-    return entry->second.known ? entry->second : built_in(name, is_float);
+    return entry->second.known ? entry->second : standard;
 }
 
 }  // namespace cardioid::image

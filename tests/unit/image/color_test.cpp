@@ -125,6 +125,31 @@ TEST(ColorSpaces, ThroughAConfiguration) {
     EXPECT_NEAR(squared[1], 0.0625f, 1e-5);
 }
 
+TEST(ColorSpaces, StandardNamesFollowAConfigurationOfOtherPrimaries) {
+    const test::Folder folder;
+    // The working space is called something else, so even "sRGB" must be asked for; here it is made twice as bright.
+    const std::string text = R"(ocio_profile_version: 1
+roles: {scene_linear: Wide, default: Wide}
+displays:
+  D:
+    - !<View> {name: V, colorspace: Wide}
+active_displays: [D]
+active_views: [V]
+colorspaces:
+  - !<ColorSpace>
+    name: Wide
+    isdata: false
+  - !<ColorSpace>
+    name: sRGB
+    isdata: false
+    to_reference: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}
+)";
+    const std::string path = folder.file("config.ocio");
+    test::write_bytes(path, {text.begin(), text.end()});
+    EXPECT_EQ(convert("sRGB", path), (Color{1, 0.5f, 2, 1}));
+    EXPECT_EQ(convert("Non-Color", path), (Color{0.5f, 0.25f, 1, 1}));
+}
+
 TEST(ColorSpaces, BytesAreConvertedBeforeInterpolation) {
     const test::Folder folder;
     const std::string config = write_config(folder), path = folder.file("two.png");
@@ -149,6 +174,21 @@ TEST(ColorSpaces, BlendersOwnConfiguration) {
     expect_unchanged("Linear", k_blender_config);
     expect_unchanged("Non-Color", k_blender_config);
     expect_unchanged("Raw", k_blender_config);
+    // The quick answer for standard names is the one that the configuration gives.
+    const test::Folder folder;
+    std::vector<std::uint8_t> bytes = test::bytes_of_file(k_blender_config);
+    std::string text(bytes.begin(), bytes.end());
+    text.replace(text.find("scene_linear: Linear"), 20, "scene_linear: 'Linear'");
+    const std::string copy = folder.file("config.ocio");
+    test::write_bytes(copy, {text.begin(), text.end()});
+    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "luts", folder.file("luts"));
+    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "filmic", folder.file("filmic"));
+    ColorSpaces slow(copy), quick(k_blender_config);
+    for (const char* name : {"sRGB", "Linear", "Non-Color", "Raw"}) {
+        EXPECT_EQ(slow.find(name, true).transfer, quick.find(name, true).transfer) << name;
+        EXPECT_TRUE(slow.find(name, true).known) << name;
+    }
+    EXPECT_EQ(slow.config_problem(), "");
     // ACEScg's red in Rec.709.
     const Color red = convert("Linear ACEScg", k_blender_config, 0, {1, 0, 0});
     EXPECT_NEAR(red[0], 1.705f, 0.01f);
