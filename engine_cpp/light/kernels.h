@@ -21,7 +21,8 @@ struct LightSample {
     Spectrum radiance;   ///< toward the receiver; where program >= 0 it multiplies that program's emission
     Float pdf;
     Mask valid;          ///< false: nothing to add
-    Mask delta;          ///< lamp of size zero: radiance is an intensity already divided by distance², pdf is the choice's
+    Mask delta;          ///< no BSDF-sampled ray finds this lamp (size zero, or without MIS): the sample has the full MIS weight.
+                         ///< Size zero: radiance is an intensity already divided by distance², pdf is the choice's alone
     Int emitter;         ///< id in LightData
     Int program;         ///< emission program still to be evaluated at (position, barycentrics, instance, triangle), or -1
     Int instance, triangle;  ///< -1 unless a triangle

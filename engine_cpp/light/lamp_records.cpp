@@ -221,6 +221,7 @@ LampRecord make_lamp_record(const LampInput& in, Float3 scene_min, Float3 scene_
     r.box_upper = r.bounds.upper;
     const bool gives_light = r.bounds.energy > 0 && std::isfinite(r.bounds.energy);
     r.hittable = r.hittable && gives_light && r.number[lamp::hit_visibility] != 0;
+    if (!r.hittable || !d.use_mis) r.number[lamp::flags] |= lamp::never_hit;
     const int lighting = scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission | scene::visible_volume;
     if (!gives_light || (d.visibility & lighting) == 0) r.bounds.energy = 0;
     return r;

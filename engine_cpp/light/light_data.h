@@ -44,7 +44,7 @@ enum Field {
     sun_inv_tan_area = 12, ///< legacy sun: 1/(pi tan^2) of its half angle
 };
 inline constexpr float k_no_spread = 1e30f;
-enum Flag : std::int32_t { is_spot = 1, spot_cosine = 2, legacy_sun = 4, no_shadow = 8, has_spread = 16 };
+enum Flag : std::int32_t { is_spot = 1, spot_cosine = 2, legacy_sun = 4, no_shadow = 8, has_spread = 16, never_hit = 32 };
 enum IntField { kind = 0, program = 1, flags = 2, visibility = 3, max_bounces = 4, hit_visibility = 5 };
 }  // namespace lamp
 inline constexpr int k_lamp_floats = 24;

@@ -60,7 +60,6 @@ void sample_delta_point(const LightData& lights, RecordIndex index, LightReceive
     set_direction(s, lanes, wi, distance, center, -wi);
     const Spectrum intensity = fetch_rgb(lights.lamp, index, lamp::radiance) * (factor / max(d2, 1e-30f));
     set_value(s, lanes, intensity, 1.0f, (factor > Float(0.0f)) & (d2 > Float(1e-30f)));
-    s.delta |= lanes;
 }
 
 /// Radiance of a sun before Blender 4.0 grows toward its edge: there it is a flat disk.
@@ -83,7 +82,6 @@ void sample_delta_sun(const LightData& lights, RecordIndex index, Mask lanes, Li
     const Vec3 wi = fetch3(lights.lamp, index, lamp::position);
     set_direction(s, lanes, wi, k_infinity, wi, -wi);
     set_value(s, lanes, fetch_rgb(lights.lamp, index, lamp::radiance), 1.0f, lanes);
-    s.delta |= lanes;
     s.infinite |= lanes;
 }
 
@@ -110,6 +108,7 @@ void sample_lamps(const LightData& lights, LightReceiver at, Vec3 u, Mask lanes,
     s.visibility = select(lanes, fetch(lights.lamp_int, numbers, lamp::visibility), s.visibility);
     s.max_bounces = select(lanes, fetch(lights.lamp_int, numbers, lamp::max_bounces), s.max_bounces);
     s.casts_shadow &= ~lanes | ((flags & Int(lamp::no_shadow)) == Int(0));
+    s.delta |= lanes & ((flags & Int(lamp::never_hit)) != Int(0));
     for (std::uint32_t left = bits(lanes); left != 0;) {
         const int first = kind[std::countr_zero(left)];
         const Mask same = lanes & (kind == Int(first));

@@ -122,11 +122,14 @@ TEST(LampHits, VisibilityAndMis) {
     const LampHit camera_only = intersect_lamp(table_of({c.lamp}).data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1e30f, mask_of(true));
     EXPECT_EQ(camera_only.visibility, scene::visible_camera);
     EXPECT_EQ(camera_only.pdf[0], 0);
+    // Rays never find such a lamp, so its samples must not be weighed against rays.
+    for_each_draw(table_of({c.lamp}), Receiver{}, 16, 1, [&](const Draw& d) { EXPECT_TRUE(d.delta && d.valid); });
     c.lamp.desc.visibility = scene::visible_all & ~scene::visible_camera;
     EXPECT_EQ(hittable_lamps(table_of({c.lamp}).data()), 0);
     EXPECT_FALSE(table_of({c.lamp}).empty());
     // From behind, and beyond t_max, nothing is hit.
     c.lamp.desc.use_mis = true;
+    for_each_draw(table_of({c.lamp}), Receiver{}, 16, 1, [&](const Draw& d) { EXPECT_FALSE(d.delta); });
     const LightTable table = table_of({c.lamp});
     const Vec3 down{0.0f, 0.0f, -1.0f};
     EXPECT_TRUE(none(intersect_lamp(table.data(), 0, Receiver{{0.3f, -0.2f, 5}, {0, 0, 0}}.lanes(), down, 1e30f, mask_of(true)).hit));
