@@ -168,6 +168,42 @@ void wave(NodeContext& c) {
     c.number_out("Fac", f);
 }
 
+CellFeature cell_feature(const std::string& name) {
+    if (name == "F2") return CellFeature::f2;
+    if (name == "SMOOTH_F1") return CellFeature::smooth_f1;
+    if (name == "DISTANCE_TO_EDGE") return CellFeature::edge;
+    return name == "N_SPHERE_RADIUS" ? CellFeature::radius : CellFeature::f1;
+}
+
+CellMetric cell_metric(const std::string& name) {
+    if (name == "MANHATTAN") return CellMetric::manhattan;
+    if (name == "CHEBYCHEV") return CellMetric::chebychev;
+    return name == "MINKOWSKI" ? CellMetric::minkowski : CellMetric::euclidean;
+}
+
+void voronoi(NodeContext& c) {
+    Builder& b = c.b;
+    const std::uint32_t d = dimensions(c, "voronoi_dimensions", "3D");
+    const Ref scale = c.number("Scale", 5), zero = b.constant(0), one = b.constant(1);
+    const Point4 p = point4(c, d, b.multiply(texture_point(c, TextureDefault::generated), scale), b.multiply(c.number("W"), scale));
+    const CellFeature feature = cell_feature(c.text("feature", "F1"));
+    std::uint32_t mode = d | static_cast<std::uint32_t>(feature) << cell_feature_shift;
+    mode |= static_cast<std::uint32_t>(cell_metric(c.text("distance", "EUCLIDEAN"))) << cell_metric_shift;
+    if (c.flag("normalize")) mode |= cell_normalize;
+    if (c.property("version", 1) >= 2) mode |= cell_pcg;
+    if (c.used("Color")) mode |= cell_color;
+    // Before 4.0 there is no detail.
+    const Ref detail = b.emit(Op::clamp, {c.number("Detail", 0), zero, b.constant(15)});
+    const Ref smoothness = b.emit(Op::clamp, {b.multiply(c.number("Smoothness", 1), b.constant(0.5f)), zero, b.constant(0.5f)});
+    const Results r = b.emit_all(Op::voronoi, {p.x, p.y, p.z, p.w, detail, b.saturate(c.number("Roughness", 0.5f)), c.number("Lacunarity", 2), smoothness,
+                                               c.number("Exponent", 0.5f), b.saturate(c.number("Randomness", 1)), feature == CellFeature::radius ? one : scale}, mode);
+    c.number_out("Distance", r[0]);
+    c.number_out("Radius", r[0]);
+    c.color_out("Color", {r[1], r[2], r[3]});
+    c.vector_out("Position", d == 1 ? b.broadcast(zero) : Ref3{r[4], r[5], r[6]});
+    c.number_out("W", d == 1 ? r[4] : r[7]);
+}
+
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeTexChecker", checker, nullptr, Support::same, ""},
     {"ShaderNodeTexBrick", brick, nullptr, Support::same, ""},
@@ -176,6 +212,7 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeTexWhiteNoise", white_noise, nullptr, Support::same, ""},
     {"ShaderNodeTexNoise", noise, nullptr, Support::same, "all types of 4.1 and later, and the noise of 3.4"},
     {"ShaderNodeTexMusgrave", musgrave, nullptr, Support::same, ""},
+    {"ShaderNodeTexVoronoi", voronoi, nullptr, Support::same, "with the octaves of 4.0 and later; the hash of 5.0 where params[\"version\"] is 2"},
     {"ShaderNodeTexWave", wave, nullptr, Support::same, ""},
 };
 

@@ -39,6 +39,19 @@ enum NoiseMode : std::uint32_t {
     noise_color = 1u << 10,     ///< the second and third result are wanted
 };
 
+enum class CellFeature : std::uint32_t { f1, f2, smooth_f1, edge, radius };
+enum class CellMetric : std::uint32_t { euclidean, manhattan, chebychev, minkowski };
+
+/// imm of the voronoi op: dimensions | feature << 4 | metric << 8 | flags.
+enum CellMode : std::uint32_t {
+    cell_dimension_mask = 7,
+    cell_feature_shift = 4,
+    cell_metric_shift = 8,
+    cell_normalize = 1u << 12,
+    cell_pcg = 1u << 13,        ///< the hash of Blender 5.0 and later
+    cell_color = 1u << 14,      ///< the colour is wanted
+};
+
 enum class RayValue : std::uint32_t {
     is_camera, is_shadow, is_diffuse, is_glossy, is_singular, is_reflection, is_transmission, is_volume,
     length, depth, diffuse_depth, glossy_depth, transparent_depth, transmission_depth,

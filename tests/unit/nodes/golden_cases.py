@@ -189,6 +189,22 @@ def texture_cases(version: tuple) -> list[dict]:
         found.append(case(f"noise {size}", "ShaderNodeTexNoise", "Color", {**place, "Scale": 2.3, "Detail": 3.4, "Roughness": 0.6}, NOISE, noise_dimensions=size))
         found.append(case(f"noise distorted {size}", "ShaderNodeTexNoise", "Fac", {**place, "Scale": 1.3, "Detail": 2.0, "Distortion": 0.8}, NOISE,
                           noise_dimensions=size))
+        for feature in ("F1", "F2", "SMOOTH_F1", "DISTANCE_TO_EDGE", "N_SPHERE_RADIUS"):
+            inputs = {**place, "Scale": 2.1, "Randomness": 0.9}
+            out = {"DISTANCE_TO_EDGE": "Distance", "N_SPHERE_RADIUS": "Radius"}.get(feature, "Color")
+            if version >= (4, 0) and feature != "N_SPHERE_RADIUS":
+                inputs = {**inputs, "Detail": 1.6, "Roughness": 0.7, "Lacunarity": 1.9}
+            normal = {"normalize": True} if version >= (4, 0) and feature not in ("N_SPHERE_RADIUS", "SMOOTH_F1") else {}
+            found.append(case(f"voronoi {feature} {size}", "ShaderNodeTexVoronoi", out, inputs, NOISE, voronoi_dimensions=size, feature=feature, **normal))
+            if out == "Color" and size in ("2D", "3D"):
+                metric = {"F1": "MANHATTAN", "F2": "CHEBYCHEV", "SMOOTH_F1": "MINKOWSKI"}[feature]
+                inputs = {**inputs, "Exponent": 1.7} if metric == "MINKOWSKI" else inputs
+                found.append(case(f"voronoi {metric} {size}", "ShaderNodeTexVoronoi", "Distance", inputs, NOISE, voronoi_dimensions=size,
+                                  feature=feature, distance=metric, **normal))
+                found.append(case(f"voronoi position {feature} {size}", "ShaderNodeTexVoronoi", "Position", inputs, NOISE, voronoi_dimensions=size,
+                                  feature=feature, **normal))
+            if size in ("1D", "4D") and out == "Color":
+                found.append(case(f"voronoi w {feature} {size}", "ShaderNodeTexVoronoi", "W", inputs, NOISE, voronoi_dimensions=size, feature=feature, **normal))
         if version < (4, 1):
             for kind in ("FBM", "MULTIFRACTAL", "RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL", "HETERO_TERRAIN"):
                 inputs = {**place, "Scale": 1.7, "Detail": 3.3, "Dimension": 0.8, "Lacunarity": 2.1}
