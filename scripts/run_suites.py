@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build" / "release"
 LOGS = ROOT / "build" / "logs"
 PYTHON = "/usr/bin/python3"
+TOOLS = ROOT / ".venv" / "tools" / "bin"
 COUNTS = re.compile(r"^(\d+) passed, (\d+) failed, (\d+) skipped\s*$", re.MULTILINE)
 
 
@@ -152,8 +153,8 @@ def cpp_tests() -> Counts:
 
 
 def python_tests() -> Counts:
-    folders = [p for p in ("tests/python", "tests/scripts") if (ROOT / p).exists()]
-    return pytest_suite("python", [PYTHON, "-m", "pytest"], folders or ["tests/python"], 600)
+    """Python that needs no Blender: the arithmetic of the bench and of the comparison with Cycles."""
+    return pytest_suite("python", [TOOLS / "python", "-m", "pytest"], ["tests/bench", "tests/render"], 300)
 
 
 def in_blender(name: str, starter: list[str | Path]) -> Counts:
@@ -196,7 +197,7 @@ def render_comparison() -> Counts:
 
 
 def ruff() -> Counts:
-    return check_suite("ruff", [ROOT / ".venv/tools/bin/ruff", "check", "--no-cache", "--output-format=concise", "."])
+    return check_suite("ruff", [TOOLS / "ruff", "check", "--no-cache", "--output-format=concise", "."])
 
 
 def clang_format() -> Counts:
