@@ -19,6 +19,7 @@ class CardioidRenderEngine(bpy.types.RenderEngine):
     bl_use_postprocess = True
     bl_use_eevee_viewport = True
     bl_use_shading_nodes_custom = False
+    bl_use_custom_freestyle = True
     bl_use_gpu_context = False
     bl_use_stereo_viewport = False
     bl_use_spherical_stereo = False

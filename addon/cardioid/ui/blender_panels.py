@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's own panels that suit Cardioid: those for any engine, less the ones that Cardioid replaces or cannot serve,
-and a few that are marked for EEVEE only."""
+"""Blender's own panels that suit Cardioid: those for any engine, less the ones that Cardioid replaces, and a few that
+are marked for EEVEE only."""
 
 from __future__ import annotations
 
@@ -17,8 +17,6 @@ k_replaced = {
     "OBJECT_PT_shading",  # light linking, which Cardioid does not have
 }
 
-k_freestyle = "freestyle"  # line drawing is Blender's own second render and is not part of Cardioid's picture
-
 k_added = {
     "DATA_PT_camera_dof", "DATA_PT_camera_dof_aperture", "EEVEE_MATERIAL_PT_context_material", "MATERIAL_PT_preview",
 }
@@ -27,14 +25,13 @@ _joined: list[type] = []
 
 
 def suitable() -> list[type]:
-    """Panels that appear while Cardioid is the render engine. Only panels with a set of engines of their own: adding to
-    a set that a base class shares would open that class's other panels too."""
+    """Panels that appear while Cardioid is the render engine."""
     return [panel for panel in bpy.types.Panel.__subclasses__() if _suits(panel)]
 
 
 def _suits(panel: type) -> bool:
-    engines = panel.__dict__.get("COMPAT_ENGINES")
-    if not engines or panel.__name__ in k_replaced or k_freestyle in panel.__name__:
+    engines = getattr(panel, "COMPAT_ENGINES", None)
+    if not engines or panel.__name__ in k_replaced:
         return False
     return k_any_engine in engines or panel.__name__ in k_added
 

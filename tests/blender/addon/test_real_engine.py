@@ -154,6 +154,17 @@ def test_unknown_node_is_named_and_the_rest_renders(scene, render, monkeypatch):
     assert len(named) == 1 and "Material" in named[0], told
 
 
+def test_freestyle_lines(scene, render):
+    """Blender renders the strokes as a scene of their own, with Cardioid: no EEVEE, which needs a display."""
+    scene.render.resolution_x, scene.render.resolution_y = 160, 90
+    plain = combined(render("plain"))
+    scene.render.use_freestyle = True
+    drawn = combined(render("drawn"))
+    darker = (plain - drawn).max(axis=2) > 0.02
+    assert 50 < darker.sum() < 2000
+    np.testing.assert_allclose(drawn[:10, :10], plain[:10, :10], atol=1e-4)
+
+
 def test_cycles_then_cardioid_then_cycles(scene, render):
     scene.cycles.samples, scene.cycles.use_denoising = 4, False
     pictures_of = []
