@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run inside Blender: saves what Cardioid would render as a scene file for `cardioid-render` (one pixel, a profile, a bug).
+"""Run inside Blender: saves what Cardioid would render as a scene file for `cardioid-render`.
 
 usage: blender -b scene.blend --addons cardioid --python-exit-code 1 --python scripts/save_scene.py -- OUT.cardioid
 """
@@ -12,7 +12,7 @@ import bpy
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "addon"))
 
-from cardioid import core, export, frame_size, passes, resolve  # noqa: E402
+from cardioid import core, export, frame_size, passes, resolve
 
 saved: list[str] = []
 
