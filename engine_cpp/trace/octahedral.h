@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unit vectors in 32 bits: the octahedral map with 16 bits a coordinate, error under 5e-5 radians.
+// Unit vectors in 32 bits: the octahedral map with 16 bits a coordinate, error under 7e-5 radians (measured 6.3e-5).
 // Source: Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
 #pragma once
 
