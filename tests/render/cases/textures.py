@@ -90,7 +90,7 @@ def gradients(scene):
     """Linear, spherical and radial gradients in the three channels."""
     g = kit.graph("card")
     at = g.node("TexCoord").outputs["Object"]
-    moved = g.node("Mapping", {"Vector": at, "Location": (0.1, 0.0, -0.9)}).outputs["Vector"]
+    moved = g.node("Mapping", {"Vector": at, "Location": (0.1, 0.3, -0.9)}).outputs["Vector"]
     channels = [
         g.node("TexGradient", {"Vector": moved}, gradient_type=kind).outputs["Fac"]
         for kind in ("LINEAR", "SPHERICAL", "RADIAL")
