@@ -55,6 +55,13 @@ bool constant_sum(const Program& p, Op op, Float3& sum) {
     return true;
 }
 
+/// Some lobe has a normal that the graph made: normals that are linked all go through bend_normal.
+bool makes_normals(const Program& p) {
+    return std::any_of(p.code.begin(), p.code.end(), [&](const Instruction& in) {
+        return in.op == Op::bend_normal && (p.args[in.args] & operand_chunk) == 0;
+    });
+}
+
 ProgramInfo describe(const CompiledGraph& g) {
     const Program& surface = g.of(Purpose::surface);
     const Program& emission = g.of(Purpose::emission);
@@ -69,6 +76,7 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.transparency_needs_light_path = uses(transparency, Op::ray_value);
     info.needs_light_path = uses(surface, Op::ray_value);
     info.has_bump = uses(surface, Op::surface_step);
+    info.own_normals = makes_normals(surface);
     info.needs_triangle_frame = reads_triangle(surface);
     info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::transform);
     for (const Instruction& in : surface.code)

@@ -62,7 +62,7 @@ inline Vec4 pcg(Int4 v) {
     v = {v.x ^ arithmetic_shift_16(v.x), v.y ^ arithmetic_shift_16(v.y), v.z ^ arithmetic_shift_16(v.z), v.w ^ arithmetic_shift_16(v.w)};
     round();
     const auto unit = [](Int x) { return to_float(x & Int(0x7fffffff)) * (1.0f / 2147483647.0f); };
-    return {unit(v.x), unit(v.y), unit(v.z), unit(v.w)};
+    return {unit(v.x), unit(v.y), D > 2 ? unit(v.z) : Float(0.0f), D > 3 ? unit(v.w) : Float(0.0f)};
 }
 
 inline Int4 whole(Vec4 p) { return {to_int(p.x), to_int(p.y), to_int(p.z), to_int(p.w)}; }

@@ -216,5 +216,29 @@ def texture_cases(version: tuple) -> list[dict]:
     return found
 
 
+def newer_cases() -> list[dict]:
+    """What 4.x and later have and 3.4 has not."""
+    found = [case("mix EXCLUSION", "ShaderNodeMix", "Result_Color", {"Factor_Float": "u", "A_Color": "c", "B_Color": (0.7, 0.2, 0.4, 1)},
+                  data_type="RGBA", blend_type="EXCLUSION"),
+             case("math FLOORED_MODULO", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": 0.37}, operation="FLOORED_MODULO")]
+    for size in ("1D", "2D", "3D", "4D"):
+        place = {} if size == "1D" else {"Vector": "v"}
+        if size in ("1D", "4D"):
+            place["W"] = "x"
+        for kind in ("MULTIFRACTAL", "RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL", "FBM", "HETERO_TERRAIN"):
+            inputs = {**place, "Scale": 1.7, "Detail": 2.3, "Roughness": 0.6, "Lacunarity": 2.1, "Distortion": 0.3}
+            if kind in ("RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL", "HETERO_TERRAIN"):
+                inputs["Offset"] = 0.4
+            if kind in ("RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL"):
+                inputs["Gain"] = 1.3
+            params = {"noise_type": kind, "noise_dimensions": size}
+            if kind == "FBM":
+                params["normalize"] = False
+            found.append(case(f"noise {kind} {size}", "ShaderNodeTexNoise", "Color", inputs, NOISE, **params))
+    return found
+
+
 def cases(version: tuple) -> list[dict]:
+    if version >= (4, 1):
+        return newer_cases() + texture_cases(version)
     return math_cases() + color_cases() + vector_cases() + texture_cases(version)
