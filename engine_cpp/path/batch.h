@@ -52,7 +52,7 @@ struct alignas(64) HitState {
 struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
-    bool transmissive = false;      ///< some lobe sends light through
+    bool all_sides = false;         ///< light from below the smooth normal's horizon counts: transmission, bump
     bsdf::Lobe* lobe = nullptr;     ///< `lobes` of them
     Row* pick = nullptr;            ///< probability of each lobe, `lobes` rows
     Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;

@@ -79,7 +79,7 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
     const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_light));
     const Vec2 pick = sample_pair(seed, index, event_dimension(event, pair_pick));
-    const LightReceiver at{p, chunk.transmissive ? Vec3{0.0f, 0.0f, 0.0f} : n};
+    const LightReceiver at{p, chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n};
     const LightSample light = sample_light(*scene.lights, at, {pick.x, u.x, u.y}, active);
     Mask lit = active & light.valid & (light.pdf > Float(0.0f));
     scratch.counters.light_samples += static_cast<std::uint64_t>(count(active));

@@ -205,8 +205,8 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     if (m.info.has_emission) add_surface_emission(material, list);
     chunk->n = n;
     chunk->lobes = out.lobes;
-    chunk->transmissive = false;
-    for (int k = 0; k < out.lobes; ++k) chunk->transmissive |= bsdf::sends_light_through(out.lobe[k].kind);
+    chunk->all_sides = m.info.own_normals;
+    for (int k = 0; k < out.lobes; ++k) chunk->all_sides |= bsdf::sends_light_through(out.lobe[k].kind);
     scatter(*chunk, list);
     if (scratch.log) log_vertices(*chunk, material);
     if (chunk->lobes > 0 && scene.has_lights) {
@@ -340,7 +340,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         append(to.throughput[1], k, weight.g, go);
         append(to.throughput[2], k, weight.b, go);
         append(to.pdf, k, select(passes, gather(rays.pdf, ray), select(c.delta, Float(-1.0f), c.pdf)), go);
-        const Vec3 from = chunk.transmissive ? Vec3{0.0f, 0.0f, 0.0f} : n;
+        const Vec3 from = chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n;
         const Vec3 from_normal = select(passes, load3(rays.from_normal, ray), from);
         append(to.from_normal[0], k, from_normal.x, go);
         append(to.from_normal[1], k, from_normal.y, go);

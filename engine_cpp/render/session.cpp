@@ -5,6 +5,7 @@
 #include "film/pixel_filter.h"
 #include "path/batch.h"
 #include "render/tiles.h"
+#include "simd/denormals.h"
 #include "trace/traceable_scene.h"
 
 #include <nlohmann/json.hpp>
@@ -15,7 +16,6 @@
 #include <tbb/version.h>
 
 #include <sys/resource.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
@@ -39,18 +39,6 @@ double cpu_seconds() {
     const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
     return s(u.ru_utime) + s(u.ru_stime);
 }
-
-/// Denormals are slow and mean nothing here; the host's setting comes back at the end.
-class FlushDenormals {
-public:
-    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
-    ~FlushDenormals() { _mm_setcsr(saved_); }
-    FlushDenormals(const FlushDenormals&) = delete;
-    FlushDenormals& operator=(const FlushDenormals&) = delete;
-
-private:
-    unsigned saved_;
-};
 
 /// Scratch and result of one thread.
 struct Worker {

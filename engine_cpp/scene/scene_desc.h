@@ -37,23 +37,23 @@ struct AttributeDesc {
 
 struct MeshDesc {
     std::string name;
-    std::vector<float> positions;            ///< xyz per vertex, object space
-    std::vector<std::uint32_t> triangles;    ///< three vertex indices each
-    std::vector<std::int32_t> slots;         ///< material slot per triangle; empty: all 0
-    std::vector<float> corner_normals;       ///< xyz per corner; empty: flat shading
-    std::vector<AttributeDesc> attributes;   ///< UV maps (2 channels), colours (4), …
-    std::string active_uv;                   ///< render-active UV map, may be empty
-    std::string active_color;                ///< render-active colour attribute, may be empty
+    std::vector<float> positions;                            ///< xyz per vertex, object space
+    std::vector<std::uint32_t> triangles;                    ///< three vertex indices each
+    std::vector<std::int32_t> slots;                         ///< material slot per triangle; empty: all 0
+    std::vector<float> corner_normals;                       ///< xyz per corner; empty: flat shading
+    std::vector<AttributeDesc> attributes;                   ///< UV maps (2 channels), colours (4), …
+    std::string active_uv;                                   ///< render-active UV map, may be empty
+    std::string active_color;                                ///< render-active colour attribute, may be empty
     Float3 generated_min{0, 0, 0}, generated_size{1, 1, 1};  ///< texture space box for Generated coordinates
 };
 
 /// A placed mesh, or a placed group (then `mesh` is -1).
 struct InstanceDesc {
-    std::string name;                        ///< the object's name, used in messages
+    std::string name;  ///< the object's name, used in messages
     int mesh = -1;
     int group = -1;
     Affine transform;
-    std::vector<int> materials;              ///< SceneDesc::materials index per slot; -1: the default grey
+    std::vector<int> materials;  ///< SceneDesc::materials index per slot; -1: the default grey
     std::uint8_t visibility = visible_all;
     bool holdout = false;
     int pass_index = 0;
@@ -75,21 +75,21 @@ enum class AlphaMode : std::uint8_t { straight, premultiplied, channel_packed, n
 struct ImageDesc {
     std::string name;
     ImageSource source = ImageSource::file;
-    std::string path;                        ///< file: absolute path
-    std::vector<std::uint8_t> packed;        ///< packed: the bytes of the image file
-    int width = 0, height = 0, channels = 0; ///< pixels: float, bottom row first
+    std::string path;                         ///< file: absolute path
+    std::vector<std::uint8_t> packed;         ///< packed: the bytes of the image file
+    int width = 0, height = 0, channels = 0;  ///< pixels: float, bottom row first
     std::vector<float> pixels;
-    std::string colorspace = "sRGB";         ///< a name in the colour configuration
+    std::string colorspace = "sRGB";  ///< a name in the colour configuration
     AlphaMode alpha_mode = AlphaMode::straight;
 };
 
 struct MaterialDesc {
     std::string name;
-    GraphDesc graph;                         ///< empty: the default grey of Blender
-    Float3 viewport_color{0.8f, 0.8f, 0.8f}; ///< colour, metallic and roughness when the material has no nodes
+    GraphDesc graph;                          ///< empty: the default grey of Blender
+    Float3 viewport_color{0.8f, 0.8f, 0.8f};  ///< colour, metallic and roughness when the material has no nodes
     float metallic = 0, roughness = 0.4f;
     bool use_transparent_shadow = true;
-    bool sample_emission = true;             ///< false: emission is found by hits only
+    bool sample_emission = true;  ///< false: emission is found by hits only
     bool backface_culling = false;
     int pass_index = 0;
 };
@@ -100,31 +100,32 @@ enum class AreaShape : std::uint8_t { square, rectangle, disk, ellipse };
 struct LightDesc {
     std::string name;
     LightKind kind = LightKind::point;
-    Affine transform;                        ///< points along its -z
+    Affine transform;  ///< points along its -z
     Float3 color{1, 1, 1};
-    float energy = 0;                        ///< W; sun: W/m². May be negative, as in Blender
-    float radius = 0;                        ///< point and spot
-    float spot_angle = 0.7853982f;           ///< full cone angle
+    float energy = 0;               ///< W; sun: W/m². May be negative, as in Blender
+    float radius = 0;               ///< point and spot
+    float spot_angle = 0.7853982f;  ///< full cone angle
     float spot_blend = 0.15f;
-    float angle = 0.00918f;                  ///< sun: full angle of the disk
+    float angle = 0.00918f;  ///< sun: full angle of the disk
     AreaShape shape = AreaShape::square;
     float size_x = 1, size_y = 1;
-    float spread = 3.14159265f;              ///< area: full angle
+    float spread = 3.14159265f;  ///< area: full angle
     bool cast_shadow = true;
     bool use_mis = true;
-    bool legacy_lamp = false;                ///< soft point and spot lamps as in Blender before 4.0 (see light/README)
-    bool normalize = true;                   ///< false: energy is per area
+    bool legacy_lamp = false;   ///< sizes and units as in Blender before 4.0 (see light/README)
+    bool soft_falloff = false;  ///< point and spot since 4.1: a disk that faces the receiver instead of a sphere
+    bool normalize = true;      ///< false: energy is per area
     int max_bounces = 1024;
     std::uint8_t visibility = visible_all & ~visible_camera;
     bool portal = false;
-    GraphDesc graph;                         ///< empty: colour × energy alone
+    GraphDesc graph;  ///< empty: colour × energy alone
 };
 
 enum class WorldSampling : std::uint8_t { none, automatic, manual };
 
 struct WorldDesc {
     std::string name;
-    GraphDesc graph;                         ///< empty: `color`
+    GraphDesc graph;  ///< empty: `color`
     Float3 color{0, 0, 0};
     WorldSampling sampling = WorldSampling::automatic;
     int map_resolution = 1024;
@@ -144,41 +145,41 @@ struct CameraDesc {
     float clip_start = 0.1f, clip_end = 1000;                   ///< distances along the view axis
     float aperture_radius = 0;                                  ///< 0: pinhole
     float focus_distance = 10;
-    int blades = 0;                                             ///< under 3: round
+    int blades = 0;  ///< under 3: round
     float blade_rotation = 0;
-    float aperture_ratio = 1;                                   ///< anamorphic bokeh: > 1 squeezes horizontally
+    float aperture_ratio = 1;  ///< anamorphic bokeh: > 1 squeezes horizontally
 };
 
-enum class IntegratorKind : std::uint8_t { path_tracing };      ///< grows with the photon pass
+enum class IntegratorKind : std::uint8_t { path_tracing };  ///< grows with the photon pass
 enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
 
 struct Settings {
     IntegratorKind integrator = IntegratorKind::path_tracing;
-    int width = 512, height = 512;                  ///< pixels of the whole frame
-    std::array<int, 4> crop{0, 0, 0, 0};            ///< x, y, width, height from the bottom left; zeros: all
-    int samples = 64;                               ///< camera paths a pixel, >= 1
-    int first_sample = 0;                           ///< passes are independent: a frame can be split by sample range
-    float time_limit = 0;                           ///< seconds; 0: none
-    int threads = 0;                                ///< 0: all
+    int width = 512, height = 512;        ///< pixels of the whole frame
+    std::array<int, 4> crop{0, 0, 0, 0};  ///< x, y, width, height from the bottom left; zeros: all
+    int samples = 64;                     ///< camera paths a pixel, >= 1
+    int first_sample = 0;                 ///< passes are independent: a frame can be split by sample range
+    float time_limit = 0;                 ///< seconds; 0: none
+    int threads = 0;                      ///< 0: all
     std::uint32_t seed = 0;
     int max_bounces = 12;
     int max_diffuse_bounces = 4, max_glossy_bounces = 4, max_transmission_bounces = 12;
     int max_transparent_bounces = 8;
-    float clamp_direct = 0, clamp_indirect = 0;     ///< 0: off
+    float clamp_direct = 0, clamp_indirect = 0;  ///< 0: off
     bool reflective_caustics = true, refractive_caustics = true;
     float filter_glossy = 0;
-    float caustic_roughness = 0;                    ///< lobes at or under it are class S
+    float caustic_roughness = 0;  ///< lobes at or under it are class S
     PixelFilter pixel_filter = PixelFilter::blackman_harris;
-    float filter_width = 1.5f;                      ///< pixels
+    float filter_width = 1.5f;  ///< pixels
     float exposure = 1;
     bool transparent_film = false;
     bool transparent_glass = false;
     float transparent_roughness = 0.1f;
     bool robust_intersection = false;
-    bool physical_refraction = false;               ///< radiance scaled by (eta_from/eta_to)² instead of Cycles' convention
-    std::int64_t memory_limit = 0;                  ///< bytes for film and geometry; 0: the machine's memory
+    bool physical_refraction = false;  ///< radiance scaled by (eta_from/eta_to)² instead of Cycles' convention
+    std::int64_t memory_limit = 0;     ///< bytes for film and geometry; 0: the machine's memory
     int texture_cache_mb = 1024;
-    std::string ocio_config;                        ///< path; empty: built-in standard spaces
+    std::string ocio_config;  ///< path; empty: built-in standard spaces
 };
 
 struct SceneDesc {

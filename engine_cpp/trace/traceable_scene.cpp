@@ -204,6 +204,7 @@ std::vector<light::LampInput> TraceableScene::Impl::lamp_inputs(const scene::Sce
         if (desc.lights[i].portal) continue;
         light::LampInput lamp;
         lamp.desc = desc.lights[i];
+        lamp.soft_falloff = desc.lights[i].soft_falloff;
         if (!lamp.desc.graph.empty()) {
             const int id = view.material_count + static_cast<int>(i);
             const nodes::ProgramInfo& info = materials[id].info;

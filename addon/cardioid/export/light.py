@@ -26,6 +26,7 @@ def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None) -> dict[str, A
         "use_mis": bool(compat.cycles(light, "use_multiple_importance_sampling", True)),
         "max_bounces": compat.cycles(light, "max_bounces", 1024),
         "legacy_lamp": not compat.has("new_lamps"),
+        "soft_falloff": bool(getattr(light, "use_soft_falloff", False)),
         "normalize": bool(getattr(light, "normalize", True)),
         "visibility": object_visibility(obj),
     }
