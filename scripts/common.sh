@@ -48,4 +48,5 @@ configure_release() {
     cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release \
         -DPython_EXECUTABLE=$system_python -DPYTHON_EXECUTABLE=$system_python "$@"
 }
-build_release() { cmake --build "$build_dir" --parallel "$(nproc)"; }
+# Paths inside the checkout are hashed as relative: a second clone finds the objects of the first in the cache.
+build_release() { CCACHE_BASEDIR=$root cmake --build "$build_dir" --parallel "$(nproc)"; }
