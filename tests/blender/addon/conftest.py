@@ -17,6 +17,9 @@ import pictures  # noqa: E402
 
 k_root = Path(__file__).resolve().parents[3]
 k_core = "cardioid._core"
+k_compiled = list((k_root / "addon" / "cardioid").glob("_core*.so"))
+
+needs_engine = pytest.mark.skipif(not k_compiled, reason="the engine is not built")
 
 
 def use_core(module) -> None:

@@ -10,11 +10,10 @@ import subprocess
 import bpy
 import conftest
 import pytest
-from test_real_engine import k_compiled
 
 pytestmark = [
     pytest.mark.skipif(getattr(bpy.app, "module", False), reason="Blender as a module has no command line"),
-    pytest.mark.skipif(not k_compiled, reason="the engine is not built"),
+    conftest.needs_engine,
 ]
 
 

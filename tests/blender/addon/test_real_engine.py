@@ -5,9 +5,7 @@ from __future__ import annotations
 
 import json
 import sys
-import threading
 import time
-from pathlib import Path
 
 import bpy
 import conftest
@@ -15,9 +13,7 @@ import numpy as np
 import pictures
 import pytest
 
-k_compiled = list((conftest.k_root / "addon" / "cardioid").glob("_core*.so"))
-
-pytestmark = pytest.mark.skipif(not k_compiled, reason="the engine is not built")
+pytestmark = conftest.needs_engine
 
 
 @pytest.fixture
@@ -173,20 +169,3 @@ def test_cycles_then_cardioid_then_cycles(scene, render):
         pictures_of.append(combined(render(f"turn{len(pictures_of)}")))
     np.testing.assert_array_equal(pictures_of[0], pictures_of[2])
     assert pictures_of[1].mean() == pytest.approx(pictures_of[0].mean(), rel=0.1)
-
-
-def test_flat_memory_over_an_animation(scene, tmp_path):
-    def resident():
-        return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
-
-    scene.cardioid.samples = 1
-    pictures.set_exr(scene, False)
-    scene.render.filepath = str(tmp_path / "f_")
-    # the allocator takes some thirty frames to settle
-    scene.frame_start, scene.frame_end = 1, 40
-    bpy.ops.render.render(animation=True)
-    before = resident()
-    scene.frame_end = 80
-    bpy.ops.render.render(animation=True)
-    assert resident() - before < 8 << 20
-    assert threading.active_count() < 20
