@@ -162,7 +162,7 @@ def in_blender(name: str, starter: list[str | Path]) -> Counts:
     with tempfile.TemporaryDirectory() as folder:
         env = {f"BLENDER_USER_{part}": folder for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES")}
         command = [*starter, ROOT / "scripts" / "pytest_in_blender.py", "--"]
-        return pytest_suite(name, command, ["tests/blender"], 300, env)
+        return pytest_suite(name, command, ["tests/blender"], 600, env)
 
 
 def blender_34() -> Counts:
@@ -178,7 +178,7 @@ def bpy_50() -> Counts:
 
 
 def bad_input() -> Counts:
-    return pytest_suite("bad_input", [PYTHON, "-m", "pytest"], ["tests/bad_input"], 300)
+    return pytest_suite("bad_input", [PYTHON, "-m", "pytest"], ["tests/bad_input"], 600)
 
 
 def render_comparison() -> Counts:
