@@ -138,6 +138,16 @@ struct PathLog {
     int capacity = 0, n = 0;
 };
 
+/// Rays that a batch handed to Embree, for a loop that traces nothing else (bench/cpp/embree_loop.cpp). Packets of the lane
+/// width follow each other; a packet's unused lanes have t_max < t_min.
+struct RayLog {
+    float* field[8] = {};            ///< origin xyz, direction xyz, t_min, t_max; `capacity` floats each
+    std::int32_t* mask = nullptr;
+    std::uint8_t* kind = nullptr;    ///< RayKind per ray
+    std::size_t capacity = 0, n = 0;
+};
+enum RayKind : std::uint8_t { ray_kind_coherent, ray_kind_bounce, ray_kind_shadow };
+
 /// All memory of one thread; nothing is allocated while tracing.
 struct alignas(64) Scratch {
     RayState rays[2];
@@ -155,10 +165,14 @@ struct alignas(64) Scratch {
     Counters counters;
     const std::atomic<bool>* cancelled = nullptr;
     PathLog* log = nullptr;
+    RayLog* ray_log = nullptr;
 };
 
 /// Traces the batch; with width 1, 8 or 16 lanes.
 using TraceBatch = void (*)(const BatchRequest&, Scratch&, BatchResult&);
+/// Traces the logged packets again with the same Embree calls and nothing else; returns how many rays hit something.
+using ReplayRays = std::uint64_t (*)(RTCSceneTy* scene, const RayLog& log);
+ReplayRays select_replay_rays(int width = 0);
 /// The kernels for this machine; `width` 0 picks the widest that it can run, otherwise that width (tests).
 TraceBatch select_trace_batch(int width = 0);
 /// Widest lanes that the processor can run: 1, 8 or 16.

@@ -160,6 +160,7 @@ void Tracer::flush_shadows() {
         ray.t_max = load(q.t_max + i);
         ray.time = 0.0f;
         ray.mask = Int(trace::mask_shadow_opaque);
+        if (scratch.ray_log) log_rays(*scratch.ray_log, ray, lanes, path::ray_kind_shadow);
         Mask visible = lanes & ~occluded(scene.embree, ray, lanes);
         Spectrum c{load(q.radiance[0] + i), load(q.radiance[1] + i), load(q.radiance[2] + i)};
         if (scene.has_transparent_shadows && any(visible)) c *= through_transparent(ray, visible);

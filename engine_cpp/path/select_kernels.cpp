@@ -4,12 +4,15 @@
 
 namespace cardioid {
 namespace isa_w1 {
+std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
 }
 namespace isa_w8 {
+std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
 }
 namespace isa_w16 {
+std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
 }
 
@@ -30,6 +33,13 @@ TraceBatch select_trace_batch(int width) {
     if (width == 0 || width > best) width = best;
     if (width == 16) return isa_w16::trace_batch;
     return width == 8 ? isa_w8::trace_batch : isa_w1::trace_batch;
+}
+
+ReplayRays select_replay_rays(int width) {
+    const int best = best_width();
+    if (width == 0 || width > best) width = best;
+    if (width == 16) return isa_w16::replay_rays;
+    return width == 8 ? isa_w8::replay_rays : isa_w1::replay_rays;
 }
 
 }  // namespace path

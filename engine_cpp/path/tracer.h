@@ -62,6 +62,16 @@ struct ShadedPoint {
 /// Purpose::emission gives radiance, Purpose::transparency what passes straight through.
 Spectrum shade_points(Tracer& tracer, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active);
 
+/// Appends a packet to the log; one that does not fit is dropped.
+inline void log_rays(path::RayLog& log, const RayLanes& ray, Mask active, path::RayKind kind) {
+    if (log.n + W > log.capacity) return;
+    const Float values[8] = {ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z, ray.t_min, select(active, ray.t_max, Float(-1.0f))};
+    for (int f = 0; f < 8; ++f) store(log.field[f] + log.n, values[f]);
+    store(log.mask + log.n, ray.mask);
+    for (std::size_t k = 0; k < W; ++k) log.kind[log.n + k] = kind;
+    log.n += W;
+}
+
 inline Int byte_of(Int packed, int which) { return (packed >> (8 * which)) & Int(255); }
 
 inline Int state_of(Int flags) { return (flags >> path::k_state_shift) & Int(7); }
