@@ -15,10 +15,11 @@ from .settings_table import k_integrators
 
 @dataclass(frozen=True)
 class Arguments:
-    """overrides: settings by their name in scene.cardioid. stats: where to write statistics. problems: wrong values."""
+    """overrides: settings by their name in scene.cardioid. stats, export: files to write. problems: wrong values."""
 
     overrides: dict[str, Any] = field(default_factory=dict)
     stats: str = ""
+    export: str = ""
     problems: tuple[str, ...] = ()
 
 
@@ -67,6 +68,7 @@ k_arguments = (
     ("--cardioid-threads", "threads", _integer(0), "N", "threads to render with; 0: as Blender is set"),
     ("--cardioid-seed", "seed", _integer(0), "N", "seed of the noise"),
     ("--cardioid-stats", "stats", str, "FILE.json", "write times, counts and memory of each frame there"),
+    ("--cardioid-export", "export", str, "FILE.cardioid", "save the scene for cardioid-render; # is the frame's number"),
 )
 
 
@@ -89,7 +91,7 @@ def parse(argv: Sequence[str]) -> Arguments:
             values[name] = getattr(found, name)
     problems += [f"{word.split('=')[0]}: there is no such option" for word in rest if word.startswith("--cardioid-")
                  and word.split("=")[0] not in {argument[0] for argument in k_arguments}]
-    return Arguments(values, values.pop("stats", ""), tuple(problems))
+    return Arguments(values, values.pop("stats", ""), values.pop("export", ""), tuple(problems))
 
 
 def current() -> Arguments:

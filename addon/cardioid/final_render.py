@@ -53,6 +53,8 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
         return
     if not engine.is_preview:
         messages.warn(engine, exported.warnings)
+        if arguments.export:
+            _save_scene(module, exported, arguments.export.replace("#", str(scene.frame_current)))
     size, area = frame_size.result_size(scene.render), frame_size.crop(scene.render)
     target = Target(engine, layer.name, view, size, area, wanted)
     entry = {"frame": scene.frame_current, "layer": layer.name, "view": view, "settings": settings,
@@ -99,6 +101,14 @@ def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Ex
     except module.Error as error:
         raise _engine_problem(error) from error
     entry["render_seconds"] = time.monotonic() - start
+
+
+def _save_scene(module: ModuleType, exported: export.Exported, path: str) -> None:
+    """For the command line, bug reports and benchmarks: what the engine was told, in one file."""
+    try:
+        exported.scene.save(bpy.path.abspath(path))
+    except module.Error as error:
+        raise _engine_problem(error) from error
 
 
 def _engine_problem(error: Exception) -> RenderProblem:
