@@ -93,10 +93,26 @@ Ref3 sided(NodeContext& c, Ref3 v) {
     return Builder::each(v, [&](Ref x) { return c.b.select_positive(c.b.chunk(ChunkRow::backfacing), c.b.multiply(x, c.b.constant(-1)), x); });
 }
 
-Results uv_tangent(NodeContext& c, const std::string& name) {
-    // The attribute of this name is made known first, so that its id exists.
-    const std::uint32_t id = c.attribute_id(name.empty() ? k_active_uv : name);
-    return c.b.emit_all(Op::uv_tangent, {}, id);
+Ref3 transformed(NodeContext& c, Ref3 v, Quantity quantity, Direction direction) {
+    return c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(Space::object, quantity, direction));
+}
+
+/// Tangent of a UV map for an object-space normal, with the sign of the bitangent.
+Results uv_tangent(NodeContext& c, const std::string& name, Ref3 normal) {
+    return c.b.emit_all(Op::uv_tangent, {normal.x, normal.y, normal.z}, c.attribute_id(name.empty() ? k_active_uv : name));
+}
+
+/// A tangent-space colour in world space, seen from the front of the surface.
+Ref3 tangent_mapped(NodeContext& c, Ref3 color, Ref3 n) {
+    Builder& b = c.b;
+    const Ref3 front = sided(c, n), local = transformed(c, front, Quantity::normal, Direction::from_world);
+    const Results t = uv_tangent(c, c.text("uv_map"), local);
+    const Ref3 tangent = {t[0], t[1], t[2]}, bitangent = b.multiply(b.cross(local, tangent), t[3]);
+    const Ref3 sum = b.add(b.add(b.multiply(tangent, color.x), b.multiply(bitangent, color.y)), b.multiply(local, color.z));
+    // Where the mesh has no such map the normal stays.
+    const Ref have = b.emit(Op::absolute, {t[3]});
+    return Builder::each(transformed(c, sum, Quantity::normal, Direction::to_world), front,
+                         [&](Ref x, Ref y) { return b.select_positive(have, x, y); });
 }
 
 void normal_map(NodeContext& c) {
@@ -107,19 +123,11 @@ void normal_map(NodeContext& c) {
     const Ref3 n = c.normal();
     Ref3 mapped;
     if (space == "TANGENT") {
-        const Results t = uv_tangent(c, c.text("uv_map"));
-        const Ref3 front = sided(c, n), tangent = {t[0], t[1], t[2]};
-        const Ref3 bitangent = b.multiply(b.cross(front, tangent), t[3]);
-        const Ref3 sum = b.add(b.add(b.multiply(tangent, color.x), b.multiply(bitangent, color.y)), b.multiply(front, color.z));
-        // Where the mesh has no such map the normal stays.
-        const Ref have = b.emit(Op::absolute, {t[3]});
-        mapped = Builder::each(b.normalize(sum), front, [&](Ref x, Ref y) { return b.select_positive(have, x, y); });
+        mapped = tangent_mapped(c, color, n);
     } else {
-        const bool old_axes = space.starts_with("BLENDER");
-        if (old_axes) color = {color.x, b.multiply(color.y, b.constant(-1)), b.multiply(color.z, b.constant(-1))};
+        if (space.starts_with("BLENDER")) color = {color.x, b.multiply(color.y, b.constant(-1)), b.multiply(color.z, b.constant(-1))};
         const bool object = space == "OBJECT" || space == "BLENDER_OBJECT";
-        mapped = object ? b.emit3(Op::transform, {color.x, color.y, color.z}, transform_mode(Space::object, Quantity::normal, Direction::to_world))
-                        : b.normalize(color);
+        mapped = object ? transformed(c, color, Quantity::normal, Direction::to_world) : b.normalize(color);
     }
     mapped = sided(c, mapped);
     const Ref strength = b.maximum(c.number("Strength", 1), b.constant(0));
@@ -136,15 +144,15 @@ void bump(NodeContext& c) {
     }
     const Ref distance = b.multiply(c.number("Distance", 1), b.constant(c.flag("invert") ? -1.0f : 1.0f));
     const Ref height = c.number_at("Height", Shift::none, 1), x = c.number_at("Height", Shift::x, 1), y = c.number_at("Height", Shift::y, 1);
-    c.vector_out("Normal", bumped(c, n, b.subtract(x, height), b.subtract(y, height), c.number("Strength", 1), distance));
+    const Ref3 tilted = bumped(c, n, b.subtract(x, height), b.subtract(y, height), c.number("Strength", 1), distance);
+    c.vector_out("Normal", b.emit3(Op::bend_normal, {tilted.x, tilted.y, tilted.z}));
 }
 
 void tangent(NodeContext& c) {
     Builder& b = c.b;
     if (c.text("direction_type", "RADIAL") == "UV_MAP") {
-        const Results t = uv_tangent(c, c.text("uv_map"));
-        const Ref3 n = c.normal();
-        c.vector_out("Tangent", b.cross(n, b.normalize(b.cross({t[0], t[1], t[2]}, n))));
+        const Results t = uv_tangent(c, c.text("uv_map"), transformed(c, sided(c, c.normal()), Quantity::normal, Direction::from_world));
+        c.vector_out("Tangent", tangent_around(c, {t[0], t[1], t[2]}));
         return;
     }
     const Ref half = b.constant(0.5f), zero = b.constant(0);
@@ -166,9 +174,8 @@ void displacement(NodeContext& c) {
         c.vector_out("Displacement", b.multiply(n, height));
         return;
     }
-    const Ref3 local = b.emit3(Op::transform, {n.x, n.y, n.z}, transform_mode(Space::object, Quantity::normal, Direction::from_world));
-    const Ref3 moved = b.multiply(local, height);
-    c.vector_out("Displacement", b.emit3(Op::transform, {moved.x, moved.y, moved.z}, transform_mode(Space::object, Quantity::vector, Direction::to_world)));
+    const Ref3 moved = b.multiply(transformed(c, n, Quantity::normal, Direction::from_world), height);
+    c.vector_out("Displacement", transformed(c, moved, Quantity::vector, Direction::to_world));
 }
 
 constexpr NodeType k_nodes[] = {

@@ -209,7 +209,9 @@ void op_window(const Machine& m, const Instruction& in) {
     }
 }
 
+/// Per triangle and in object space, where Blender has its tangents.
 void op_uv_tangent(const Machine& m, const Instruction& in) {
+    const Source3 normal = m.arg3(in, 0);
     for (int i = 0; i < m.end; i += W) {
         const AttributeView uv(m.chunk, i, static_cast<int>(in.imm), 2);
         if (none(uv.have)) {
@@ -221,8 +223,9 @@ void op_uv_tangent(const Machine& m, const Instruction& in) {
         const Float u2 = uv.corner(uv.e.c, 0) - u0, v2 = uv.corner(uv.e.c, 1) - v0;
         const Float det = u1 * v2 - u2 * v1;
         const Float sign = copysign(1.0f, det);
-        const Vec3 t = (load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * sign;
-        const Vec3 n = load3(m.chunk.normal, i);
+        const LaneAffine to_local = instance_affine(m.chunk, i, offsetof(InstanceInfo, world_to_object));
+        const Vec3 t = to_local.vector((load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * sign);
+        const Vec3 n = normal.at(i);
         const Mask ok = uv.have & (det != Float(0.0f));
         store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}), select(ok, sign, Float(0.0f)));
     }

@@ -216,6 +216,35 @@ def texture_cases(version: tuple) -> list[dict]:
     return found
 
 
+def scene_cases() -> list[dict]:
+    """Nodes that look at the surface: coordinates, attributes, spaces, normals."""
+    found = [case(f"coordinate {out}", "ShaderNodeTexCoord", out) for out in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection")]
+    found += [case(f"geometry {out}", "ShaderNodeNewGeometry", out)
+              for out in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing")]
+    found += [case(f"camera {out}", "ShaderNodeCameraData", out) for out in ("View Vector", "View Z Depth", "View Distance")]
+    found += [case(f"object {out}", "ShaderNodeObjectInfo", out) for out in ("Location", "Object Index")]
+    found += [case(f"light path {out}", "ShaderNodeLightPath", out) for out in ("Is Camera Ray", "Is Diffuse Ray", "Ray Length")]
+    found.append(case("uv map", "ShaderNodeUVMap", "UV", uv_map="UVMap"))
+    found.append(case("attribute uv", "ShaderNodeAttribute", "Vector", attribute_name="UVMap"))
+    found.append(case("attribute colour", "ShaderNodeAttribute", "Color", attribute_name="Col"))
+    found.append(case("attribute alpha", "ShaderNodeAttribute", "Alpha", attribute_name="Col"))
+    found.append(case("attribute missing", "ShaderNodeAttribute", "Color", attribute_name="Nothing"))
+    found.append(case("colour attribute", "ShaderNodeVertexColor", "Color", layer_name="Col"))
+    for axis in "XYZ":
+        found.append(case(f"tangent {axis}", "ShaderNodeTangent", "Tangent", direction_type="RADIAL", axis=axis))
+    found.append(case("tangent uv", "ShaderNodeTangent", "Tangent", direction_type="UV_MAP", uv_map="UVMap"))
+    for space in ("TANGENT", "OBJECT", "WORLD", "BLENDER_OBJECT", "BLENDER_WORLD"):
+        found.append(case(f"normal map {space}", "ShaderNodeNormalMap", "Normal", {"Color": "c", "Strength": 0.7}, 5e-3, space=space))
+    for kind in ("POINT", "VECTOR", "NORMAL"):
+        for a, b in (("WORLD", "OBJECT"), ("OBJECT", "WORLD"), ("WORLD", "CAMERA"), ("CAMERA", "OBJECT")):
+            found.append(case(f"transform {kind} {a} {b}", "ShaderNodeVectorTransform", "Vector", {"Vector": "v"}, vector_type=kind, convert_from=a, convert_to=b))
+    found.append(case("bump", "ShaderNodeBump", "Normal", {"Strength": 0.8, "Distance": 0.5, "Height": "u"}))
+    found.append(case("bump inverted", "ShaderNodeBump", "Normal", {"Strength": 1.0, "Distance": 0.2, "Height": "y"}, invert=True))
+    found.append(case("bump on normal", "ShaderNodeBump", "Normal", {"Strength": 0.6, "Distance": 0.3, "Height": "y", "Normal": "n"}))
+    found.append(case("checker generated", "ShaderNodeTexChecker", "Fac", {"Scale": 3.7}))
+    return found
+
+
 def newer_cases() -> list[dict]:
     """What 4.x and later have and 3.4 has not."""
     found = [case("mix EXCLUSION", "ShaderNodeMix", "Result_Color", {"Factor_Float": "u", "A_Color": "c", "B_Color": (0.7, 0.2, 0.4, 1)},
@@ -241,4 +270,4 @@ def newer_cases() -> list[dict]:
 def cases(version: tuple) -> list[dict]:
     if version >= (4, 1):
         return newer_cases() + texture_cases(version)
-    return math_cases() + color_cases() + vector_cases() + texture_cases(version)
+    return math_cases() + color_cases() + vector_cases() + texture_cases(version) + scene_cases()

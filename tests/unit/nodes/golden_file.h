@@ -14,7 +14,9 @@ namespace cardioid::test {
 struct GoldenCase {
     std::string name;
     float tolerance = 0;
+    float pixel = 0, half_height = 0;    ///< of the camera's picture, scene units
     scene::GraphDesc graph;
+    float center[2] = {0, 0};            ///< of the tile
     std::vector<float> points, values;   ///< xyz and rgb
 };
 
@@ -61,9 +63,12 @@ inline std::vector<GoldenCase> read_golden(const std::string& path) {
     std::vector<GoldenCase> cases;
     for (const auto& c : j.at("cases")) {
         GoldenCase found;
+        found.pixel = j.at("pixel").get<float>();
+        found.half_height = j.at("half_height").get<float>();
         found.name = c.at("name").get<std::string>();
         found.tolerance = c.at("tolerance").get<float>();
         found.graph = graph_of(c.at("graph"));
+        for (std::size_t k = 0; k < 2; ++k) found.center[k] = c.at("center")[k].get<float>();
         found.points = c.at("points").get<std::vector<float>>();
         found.values = c.at("values").get<std::vector<float>>();
         cases.push_back(std::move(found));

@@ -18,6 +18,7 @@ import tempfile
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Vector
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "..", "addon"))
@@ -122,14 +123,24 @@ class Tile:
 
 
 def add_plane(tile: Tile) -> None:
+    """A turned and stretched object whose corners are those of the tile (golden_tile.h builds the same)."""
     mesh = bpy.data.meshes.new(tile.case["name"])
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    mesh.from_pydata([(tile.center[0] + x, tile.center[1] + y, 0.3 * x + 0.2 * y) for x, y in corners], [], [(0, 1, 2, 3)])
+    matrix = Matrix.Translation((*tile.center, 0)) @ Matrix.Rotation(0.4, 4, "Z") @ Matrix.Diagonal((1.5, 0.8, 1.2, 1))
+    inverse = matrix.inverted()
+    world = [Vector((tile.center[0] + x, tile.center[1] + y, 0.3 * x + 0.2 * y)) for x, y in corners]
+    mesh.from_pydata([inverse @ p for p in world], [], [(0, 1, 2, 3)])
     layer = mesh.uv_layers.new(name="UVMap")
     for loop, (x, y) in zip(layer.data, corners):
         loop.uv = (x * 0.7 + y * 0.2, y * 0.6)
+    colors = mesh.color_attributes.new("Col", "FLOAT_COLOR", "POINT")
+    for k, entry in enumerate(colors.data):
+        entry.color = (0.2 * k, 0.9 - 0.1 * k, 0.3, 1 - 0.2 * k)
     mesh.materials.append(tile.material)
-    bpy.context.collection.objects.link(bpy.data.objects.new(tile.case["name"], mesh))
+    item = bpy.data.objects.new(tile.case["name"], mesh)
+    item.matrix_world = matrix
+    item.pass_index = 7
+    bpy.context.collection.objects.link(item)
 
 
 def set_up_render(columns: int, rows: int) -> None:
@@ -212,12 +223,13 @@ def main() -> None:
     for k, (tile, graph) in enumerate(zip(tiles, graphs)):
         x, y = k % columns * TILE, k // columns * TILE
         part = (slice(y, y + TILE), slice(x, x + TILE))
-        entry = {"name": tile.case["name"], "tolerance": tile.case.get("tolerance", 1e-3), "graph": graph,
+        entry = {"name": tile.case["name"], "tolerance": tile.case.get("tolerance", 1e-3), "center": tile.center, "graph": graph,
                  "points": rounded(positions[part]), "values": rounded(values[part])}
         found.append(entry)
     with open(target, "w", encoding="utf-8") as file:
         rows_text = ",\n".join(json.dumps(entry, separators=(",", ":")) for entry in found)
-        file.write('{"blender": "%s", "pixel": %r, "cases": [\n%s\n]}\n' % (bpy.app.version_string, SIZE / TILE, rows_text))
+        file.write('{"blender": "%s", "pixel": %r, "half_height": %r, "cases": [\n%s\n]}\n'
+                   % (bpy.app.version_string, SIZE / TILE, rows * SIZE / 2, rows_text))
     print(f"{len(found)} cases written to {target}")
 
 
