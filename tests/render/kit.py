@@ -11,6 +11,7 @@ import common
 import numpy as np
 
 SIZE = 96
+GLOSSY = "BsdfGlossy" if hasattr(bpy.types, "ShaderNodeBsdfGlossy") else "BsdfAnisotropic"
 
 
 @dataclass

@@ -12,7 +12,7 @@ def diffuse(scene):
     kit.ball("BsdfDiffuse", Color=(0.7, 0.4, 0.2), Roughness=0.0)
 
 
-@case()
+@case(wheels=True)
 def diffuse_rough(scene):
     """Oren-Nayar."""
     kit.ball("BsdfDiffuse", Color=(0.7, 0.4, 0.2), Roughness=0.8)
@@ -26,22 +26,22 @@ def glossy_sharp(scene):
     kit.bare_sky()
 
 
-@case(samples=96)
+@case(samples=96, wheels=True)
 def glossy_ggx(scene):
     """GGX, roughness 0.3."""
-    kit.ball("BsdfGlossy", Color=(0.9, 0.7, 0.4), Roughness=0.3, distribution="GGX")
+    kit.ball(kit.GLOSSY, Color=(0.9, 0.7, 0.4), Roughness=0.3, distribution="GGX")
 
 
 @case()
 def glossy_beckmann(scene):
     """Beckmann, roughness 0.4."""
-    kit.ball("BsdfGlossy", Color=(0.9, 0.7, 0.4), Roughness=0.4, distribution="BECKMANN")
+    kit.ball(kit.GLOSSY, Color=(0.9, 0.7, 0.4), Roughness=0.4, distribution="BECKMANN")
 
 
-@case()
+@case(wheels=True)
 def glossy_multi_ggx(scene):
     """GGX with multiple scattering, very rough."""
-    kit.ball("BsdfGlossy", Color=(0.9, 0.7, 0.4), Roughness=0.8, distribution="MULTI_GGX")
+    kit.ball(kit.GLOSSY, Color=(0.9, 0.7, 0.4), Roughness=0.8, distribution="MULTI_GGX")
 
 
 @case(samples=48)
@@ -53,26 +53,26 @@ def glass_sharp(scene):
     kit.bare_sky()
 
 
-@case(samples=96)
+@case(samples=96, wheels=True)
 def glass_rough(scene):
     """Rough glass, GGX."""
     kit.ball("BsdfGlass", Color=(0.95, 1, 0.97), Roughness=0.35, IOR=1.45, distribution="GGX")
 
 
-@case(samples=96)
+@case(samples=96, wheels=True)
 def refraction(scene):
     """Refraction without reflection, slightly rough."""
     kit.ball("BsdfRefraction", Color=(1, 0.9, 0.8), Roughness=0.2, IOR=1.3, distribution="GGX")
 
 
-@case(samples=96)
+@case(samples=96, wheels=True)
 def translucent(scene):
     """A translucent ball with the lamp behind it."""
     kit.ball_stage(common.material("ball", "BsdfTranslucent", Color=(0.7, 0.6, 0.3)), light=False)
     kit.lamp("AREA", (0.5, 2.5, 2.5), size=1.2, energy=180.0)
 
 
-@case()
+@case(wheels=True)
 def transparent(scene):
     """A half-transparent mix: light and shadow pass through it, tinted."""
     g = kit.graph("ball")
