@@ -38,18 +38,9 @@ void ColorSpace::to_linear(float* rgba, std::size_t count) const {
 namespace {
 
 // Names and common aliases in the configurations of Blender 3.4 to 5.x.
-constexpr std::string_view k_srgb[] = {"sRGB",
-                                       "sRGB OETF",
-                                       "sRGB 2.2",
-                                       "sRGB I-D65",
-                                       "sRGB - Texture",
-                                       "sRGB - Display",
-                                       "srgb_tx",
-                                       "srgb_texture",
-                                       "srgb_display",
-                                       "srgb_rec709_scene",
-                                       "srgb_rec709_display",
-                                       "Utility - sRGB - Texture"};
+constexpr std::string_view k_srgb[] = {
+    "sRGB",    "sRGB OETF",    "sRGB 2.2",     "sRGB I-D65",        "sRGB - Texture",      "sRGB - Display",
+    "srgb_tx", "srgb_texture", "srgb_display", "srgb_rec709_scene", "srgb_rec709_display", "Utility - sRGB - Texture"};
 constexpr std::string_view k_linear[] = {"Linear",
                                          "Linear Rec.709",
                                          "Linear BT.709",
@@ -132,13 +123,11 @@ struct ColorSpaces::Impl {
         }
         try {
             config = OCIO::Config::CreateFromFile(path.c_str());
-        } catch (const std::exception& bad) {
-            problem = last_line(bad.what());
-        }
+        } catch (const std::exception& bad) { problem = last_line(bad.what()); }
     }
 
-    /// The file's scene_linear role is Rec.709, so that standard names mean what they mean without it. Reading the whole
-    /// configuration takes up to a tenth of a second, and most scenes use standard names only.
+    /// The file's scene_linear role is Rec.709, so that standard names mean what they mean without it. Reading the
+    /// whole configuration takes up to a tenth of a second, and most scenes use standard names only.
     bool plain() {
         if (!checked) {
             checked = true;
@@ -170,20 +159,21 @@ struct ColorSpaces::Impl {
             out = {recognise(*processor), true, nullptr};
             if (out.transfer == Transfer::convert) out.processor = std::move(processor);
             return true;
-        } catch (const std::exception&) {
-            return false;
-        }
+        } catch (const std::exception&) { return false; }
     }
 };
 
-ColorSpaces::ColorSpaces(const std::string& config_path) : impl_(std::make_unique<Impl>()) { impl_->path = config_path; }
+ColorSpaces::ColorSpaces(const std::string& config_path) : impl_(std::make_unique<Impl>()) {
+    impl_->path = config_path;
+}
 ColorSpaces::~ColorSpaces() = default;
 
 const std::string& ColorSpaces::config_problem() const { return impl_->problem; }
 
 ColorSpace ColorSpaces::find(const std::string& name, bool is_float) {
     const ColorSpace standard = built_in(name, is_float);
-    if (standard.known && (standard.transfer == Transfer::data || impl_->path.empty() || impl_->plain())) return standard;
+    if (standard.known && (standard.transfer == Transfer::data || impl_->path.empty() || impl_->plain()))
+        return standard;
     if (!impl_->loaded) impl_->load();
     if (!impl_->config) return standard;
     auto [entry, fresh] = impl_->found.try_emplace(name);

@@ -9,15 +9,15 @@
 namespace cardioid::image {
 
 enum class Transfer : std::uint8_t {
-    none,      ///< scene-linear already
-    data,      ///< not a colour: alpha is left alone, too
-    srgb,      ///< the sRGB curve, same primaries
-    convert,   ///< something else: ColorSpace::to_linear
+    none,     ///< scene-linear already
+    data,     ///< not a colour: alpha is left alone, too
+    srgb,     ///< the sRGB curve, same primaries
+    convert,  ///< something else: ColorSpace::to_linear
 };
 
 struct ColorSpace {
     Transfer transfer = Transfer::none;
-    bool known = true;   ///< false: the name means nothing here and a guess is used
+    bool known = true;  ///< false: the name means nothing here and a guess is used
     /// Converts `count` pixels of four floats (alpha is left alone) to scene-linear.
     std::shared_ptr<const class ColorProcessor> processor;
     void to_linear(float* rgba, std::size_t count) const;

@@ -135,13 +135,15 @@ std::size_t fill_row(std::byte* to, const Texture& texture, const Conversion& c,
 void choose_format(Texture& texture, const Conversion& conversion) {
     texture.channels = conversion.source.channels == 1 ? 1 : 4;
     texture.storage = conversion.source.storage;
-    if (conversion.space.transfer == Transfer::convert && texture.storage != Storage::real) texture.storage = Storage::half;
+    if (conversion.space.transfer == Transfer::convert && texture.storage != Storage::real)
+        texture.storage = Storage::half;
     texture.srgb = conversion.space.transfer == Transfer::srgb;
 }
 
 std::size_t fill_tile(std::byte* tile, const Texture& texture, const Conversion& conversion, const std::byte* texels,
                       std::size_t stride, int width, int height) {
-    const std::size_t texel = channel_bytes(conversion.source.storage) * static_cast<std::size_t>(conversion.source.delivered());
+    const std::size_t texel =
+        channel_bytes(conversion.source.storage) * static_cast<std::size_t>(conversion.source.delivered());
     std::size_t bad = 0;
     for (int y = 0; y < height; ++y) {
         std::byte* to = tile + static_cast<std::size_t>(y) * k_tile * texture.texel_bytes();

@@ -11,8 +11,9 @@ namespace cardioid::image {
 struct Conversion {
     SourceInfo source;
     ColorSpace space;
-    bool ignore_alpha = false;    ///< alpha becomes 1
-    bool associated = false;      ///< colours arrive multiplied by alpha: divided for the conversion of colours, then multiplied
+    bool ignore_alpha = false;  ///< alpha becomes 1
+    bool associated =
+        false;  ///< colours arrive multiplied by alpha: divided for the conversion of colours, then multiplied
 };
 
 /// How texels are kept: as they come, or as scene-linear halves (floats from floats) if colours must be converted.

@@ -39,7 +39,7 @@ struct ImageStore::Impl {
     SpillFile spill;
     std::vector<std::unique_ptr<Picture>> pictures;
     std::unique_ptr<Picture> missing = std::make_unique<Picture>();
-    TileCache tiles;   // after the pictures, whose tiles it frees
+    TileCache tiles;  // after the pictures, whose tiles it frees
     ColorSpaces spaces;
     SrgbTable srgb;
     std::vector<std::once_flag> mean_once;
@@ -65,7 +65,8 @@ struct ImageStore::Impl {
 
     void warn(std::string message) {
         const std::lock_guard lock(warnings_mutex);
-        if (std::find(warnings.begin(), warnings.end(), message) == warnings.end()) warnings.push_back(std::move(message));
+        if (std::find(warnings.begin(), warnings.end(), message) == warnings.end())
+            warnings.push_back(std::move(message));
     }
 
     void open(const std::vector<scene::ImageDesc>& images) {
@@ -74,9 +75,7 @@ struct ImageStore::Impl {
         in_parallel(images.size(), [&](std::size_t i) {
             try {
                 sources[i] = open_source(images[i], files);
-            } catch (const std::exception& error) {
-                problems[i] = error.what();
-            }
+            } catch (const std::exception& error) { problems[i] = error.what(); }
         });
         std::set<std::string> unknown;
         for (std::size_t i = 0; i < images.size(); ++i) {
@@ -96,7 +95,8 @@ struct ImageStore::Impl {
         std::string names;
         for (const std::string& name : unknown) names += (names.empty() ? "\"" : ", \"") + name + '"';
         std::string message = "colour spaces that cannot be converted, read as sRGB or linear: " + names;
-        if (!spaces.config_problem().empty()) message += " (the colour configuration cannot be used: " + spaces.config_problem() + ')';
+        if (!spaces.config_problem().empty())
+            message += " (the colour configuration cannot be used: " + spaces.config_problem() + ')';
         warn(std::move(message));
     }
 
@@ -133,7 +133,8 @@ struct ImageStore::Impl {
     }
 
     Picture& picture(int image) const {
-        return image >= 0 && image < static_cast<int>(pictures.size()) ? *pictures[static_cast<std::size_t>(image)] : *missing;
+        return image >= 0 && image < static_cast<int>(pictures.size()) ? *pictures[static_cast<std::size_t>(image)]
+                                                                       : *missing;
     }
 
     Float3 mean(const ImageStore& store, int image) const;
@@ -143,8 +144,8 @@ ImageStore::ImageStore(const std::vector<scene::ImageDesc>& images, const std::s
     : impl_(std::make_unique<Impl>(images, ocio_config, cache_mb)) {}
 ImageStore::~ImageStore() = default;
 
-void ImageStore::lookup(int image, Interpolation interpolation, Extension extension, int n, const float* u, const float* v,
-                        Row rgba[4], AlphaUse alpha) const {
+void ImageStore::lookup(int image, Interpolation interpolation, Extension extension, int n, const float* u,
+                        const float* v, Row rgba[4], AlphaUse alpha) const {
     Picture& picture = impl_->picture(image);
     const Texture& texture = picture.texture();
     Footprint footprint;

@@ -8,7 +8,8 @@
 
 namespace cardioid::image {
 
-MemoryFile::MemoryFile(const std::vector<std::uint8_t>& bytes) : descriptor_(::memfd_create("cardioid-image", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const std::vector<std::uint8_t>& bytes)
+    : descriptor_(::memfd_create("cardioid-image", MFD_CLOEXEC)) {
     if (descriptor_ < 0) throw scene::SceneError("cannot be unpacked: the system gives no memory file");
     std::size_t done = 0;
     while (done < bytes.size()) {

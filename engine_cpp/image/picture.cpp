@@ -65,7 +65,8 @@ void Picture::make_evictable(SpillFile& spill) {
 }
 
 void Picture::publish(int tile, TileMemory memory, TileCache& cache) {
-    if (!cache.publish(texture_, tile, std::move(memory))) cache.release(static_cast<std::int64_t>(texture_.tile_bytes()));
+    if (!cache.publish(texture_, tile, std::move(memory)))
+        cache.release(static_cast<std::int64_t>(texture_.tile_bytes()));
 }
 
 std::string Picture::load(int tile, TileCache& cache) {
@@ -82,9 +83,7 @@ std::string Picture::load(int tile, TileCache& cache) {
         else
             load_whole(cache);
         return {};
-    } catch (const scene::SceneError& error) {
-        problem = error.what();
-    } catch (const std::exception& error) {
+    } catch (const scene::SceneError& error) { problem = error.what(); } catch (const std::exception& error) {
         problem = std::string("cannot be loaded: ") + error.what();
     }
     const bool first = !failed_;
@@ -103,8 +102,10 @@ void Picture::load_whole(TileCache& cache) {
             if (!all_spilled && texture_.tiles[tile].load()) continue;
             cache.reserve(tile_bytes);
             TileMemory memory = new_tile(texture_);
-            const std::size_t texel = channel_bytes(conversion_.source.storage) * static_cast<std::size_t>(conversion_.source.delivered());
-            non_finite_ += fill_tile(memory.get(), texture_, conversion_, texels + texel * static_cast<std::size_t>(column) * k_tile,
+            const std::size_t texel =
+                channel_bytes(conversion_.source.storage) * static_cast<std::size_t>(conversion_.source.delivered());
+            non_finite_ += fill_tile(memory.get(), texture_, conversion_,
+                                     texels + texel * static_cast<std::size_t>(column) * k_tile,
                                      static_cast<std::size_t>(texture_.width), tile_width(texture_, tile), rows);
             all_spilled = all_spilled && spill_->write(spill_place(tile), {memory.get(), texture_.tile_bytes()});
             publish(tile, std::move(memory), cache);
@@ -132,7 +133,8 @@ void Picture::load_part(int tile, TileCache& cache) {
     source_->read_part(x, texture_.height - bottom - height, width, height, texels.data());
     cache.reserve(static_cast<std::int64_t>(texture_.tile_bytes()));
     TileMemory memory = new_tile(texture_);
-    non_finite_ += fill_tile(memory.get(), texture_, conversion_, texels.data(), static_cast<std::size_t>(width), width, height);
+    non_finite_ +=
+        fill_tile(memory.get(), texture_, conversion_, texels.data(), static_cast<std::size_t>(width), width, height);
     publish(tile, std::move(memory), cache);
 }
 

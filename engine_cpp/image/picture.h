@@ -34,8 +34,8 @@ public:
     /// other images are decoded once, into `spill`.
     void make_evictable(SpillFile& spill);
 
-    /// Makes the tile readable, and others with it when the file is read whole. What cannot be read becomes magenta; the
-    /// return value then says why (once). The caller must not be reading tiles.
+    /// Makes the tile readable, and others with it when the file is read whole. What cannot be read becomes magenta;
+    /// the return value then says why (once). The caller must not be reading tiles.
     std::string load(int tile, TileCache& cache);
     /// Drops what a constructor-time read is no longer needed for.
     void forget_source() { source_.reset(); }
@@ -45,7 +45,9 @@ private:
     void load_whole(TileCache& cache);
     void load_part(int tile, TileCache& cache);
     bool load_spilled(int tile, TileCache& cache);
-    std::int64_t spill_place(int tile) const { return spill_begin_ + static_cast<std::int64_t>(texture_.tile_bytes()) * tile; }
+    std::int64_t spill_place(int tile) const {
+        return spill_begin_ + static_cast<std::int64_t>(texture_.tile_bytes()) * tile;
+    }
     void load_magenta(int tile, TileCache& cache);
     void publish(int tile, TileMemory memory, TileCache& cache);
 
@@ -56,7 +58,7 @@ private:
     bool has_alpha_ = false, failed_ = false;
     SpillFile* spill_ = nullptr;
     std::int64_t spill_begin_ = 0;
-    std::atomic<bool> spilled_{false};   ///< the spill file has every tile
+    std::atomic<bool> spilled_{false};  ///< the spill file has every tile
     std::size_t non_finite_ = 0;
     std::mutex loading_;
 };

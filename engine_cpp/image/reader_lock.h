@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A lock that is nearly free to hold for reading (one uncontended counter each thread) and slow to take for writing: tiles are read
-// in every lookup and thrown away hardly ever.
+// A lock that is nearly free to hold for reading (one uncontended counter each thread) and slow to take for writing:
+// tiles are read in every lookup and thrown away hardly ever.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ public:
         void leave() { lock_.readers_[stripe_].count.fetch_sub(1, std::memory_order_release); }
         void enter() {
             std::atomic<int>& count = lock_.readers_[stripe_].count;
-            // Sequentially consistent on both sides: either the writer sees this reader, or this reader sees the writer.
+            // Sequentially consistent on both sides: either the writer sees this reader, or this reader sees the
+            // writer.
             for (;;) {
                 count.fetch_add(1);
                 if (!lock_.writing_.load()) return;

@@ -18,15 +18,15 @@ struct AxisTaps {
 };
 
 struct Footprint {
-    int taps = 1;   ///< along each axis: 1, 2 or 4
+    int taps = 1;  ///< along each axis: 1, 2 or 4
     AxisTaps x, y;
 };
 
 void place(Footprint& footprint, Interpolation interpolation, Extension extension, int width, int height, int n,
            const float* u, const float* v);
 
-/// Stored colour (encoded, alpha associated) of points first…n-1. Stops at a tile that is not loaded and returns the point
-/// (the tile's index in `missing`), or returns n.
+/// Stored colour (encoded, alpha associated) of points first…n-1. Stops at a tile that is not loaded and returns the
+/// point (the tile's index in `missing`), or returns n.
 int fetch(const Texture& texture, const Footprint& footprint, int first, int n, Quad* colors, int& missing);
 
 /// Alpha and transfer function of the fetched colours.

@@ -13,10 +13,10 @@ namespace cardioid::image {
 
 struct SourceInfo {
     int width = 0, height = 0;
-    int channels = 0;               ///< in the file; readers deliver at most the first four
+    int channels = 0;  ///< in the file; readers deliver at most the first four
     Storage storage = Storage::byte;
-    bool tiled = false;             ///< parts can be read without reading what is before them
-    bool straight_alpha = false;    ///< the file's colours are not multiplied by its alpha
+    bool tiled = false;           ///< parts can be read without reading what is before them
+    bool straight_alpha = false;  ///< the file's colours are not multiplied by its alpha
     int delivered() const { return channels < 4 ? channels : 4; }
 };
 
@@ -53,7 +53,13 @@ protected:
     SourceInfo info_;
 };
 
-/// Throws SceneError saying why it cannot be opened.
+/// Beyond this a size in a header is taken for damage.
+inline constexpr int k_largest_side = 1 << 17;
+
+/// A file by name, or the bytes of one.
+std::unique_ptr<Source> open_file(const scene::ImageDesc& image, FileCache& cache);
+
+/// Any source. Throws SceneError saying why it cannot be opened.
 std::unique_ptr<Source> open_source(const scene::ImageDesc& image, FileCache& cache);
 
 }  // namespace cardioid::image

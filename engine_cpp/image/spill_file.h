@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A nameless temporary file for decoded tiles of images that do not fit the cache: reading a tile back takes microseconds,
-// decoding the image again would take a large part of a second. Nothing is written while all images fit.
+// A nameless temporary file for decoded tiles of images that do not fit the cache: reading a tile back takes
+// microseconds, decoding the image again would take a large part of a second. Nothing is written while all images fit.
 #pragma once
 
 #include <atomic>

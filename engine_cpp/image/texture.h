@@ -10,7 +10,7 @@
 namespace cardioid::image {
 
 inline constexpr int k_tile_shift = 6;
-inline constexpr int k_tile = 1 << k_tile_shift;   ///< texels along a side
+inline constexpr int k_tile = 1 << k_tile_shift;  ///< texels along a side
 
 /// What a texel's channel is: 0…255, 0…65535, an IEEE half, a float.
 enum class Storage : std::uint8_t { byte, ushort, half, real };
@@ -22,11 +22,11 @@ constexpr std::size_t channel_bytes(Storage storage) {
 struct Texture {
     int width = 0, height = 0, tiles_x = 0, tiles_y = 0;
     Storage storage = Storage::byte;
-    int channels = 4;           ///< 1 (grey, alpha is 1) or 4
-    bool srgb = false;          ///< texels are sRGB-encoded: linearised after interpolation, as Cycles does
-    bool associate = false;     ///< texels have straight alpha: multiplied before interpolation
-    bool may_divide = false;    ///< colour may be divided by alpha (not data, not packed channels)
-    bool evictable = false;     ///< tiles may leave the cache, so their use is marked
+    int channels = 4;         ///< 1 (grey, alpha is 1) or 4
+    bool srgb = false;        ///< texels are sRGB-encoded: linearised after interpolation, as Cycles does
+    bool associate = false;   ///< texels have straight alpha: multiplied before interpolation
+    bool may_divide = false;  ///< colour may be divided by alpha (not data, not packed channels)
+    bool evictable = false;   ///< tiles may leave the cache, so their use is marked
     std::unique_ptr<std::atomic<const std::byte*>[]> tiles;
     std::unique_ptr<std::atomic<bool>[]> used;
 

@@ -46,7 +46,7 @@ private:
     const std::int64_t budget_;
     std::atomic<std::int64_t> bytes_{0};
     std::vector<Texture*> textures_;
-    std::size_t hand_ = 0;   ///< where the last eviction stopped
+    std::size_t hand_ = 0;  ///< where the last eviction stopped
     ReaderLock lock_;
 };
 

@@ -26,8 +26,8 @@ namespace {
 void check_size(const std::string& path, int width, int height, std::size_t channels, std::size_t values) {
     const bool sane = width > 0 && height > 0 && channels > 0;
     if (!sane || static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * channels != values)
-        fail(path, std::to_string(values) + " values for " + std::to_string(width) + " × " + std::to_string(height) + " pixels of " +
-                       std::to_string(channels) + " channels");
+        fail(path, std::to_string(values) + " values for " + std::to_string(width) + " × " + std::to_string(height) +
+                       " pixels of " + std::to_string(channels) + " channels");
 }
 
 struct Stream {
@@ -46,7 +46,8 @@ struct Stream {
 };
 
 template <class T>
-void write_rows(const std::string& path, const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const T* pixels) {
+void write_rows(const std::string& path, const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                const T* pixels) {
     const auto row = static_cast<OIIO::stride_t>(spec.width) * spec.nchannels;
     const T* top = pixels + row * (spec.height - 1);
     scene::replace_file_by_name(path, [&](const std::string& temporary) {
@@ -56,8 +57,10 @@ void write_rows(const std::string& path, const std::string& format, const OIIO::
         Stream stream(std::fopen(temporary.c_str(), "wb"));
         if (!stream.file) fail(path, std::strerror(errno));
         OIIO::Filesystem::IOFile proxy(stream.file, OIIO::Filesystem::IOProxy::Write);
-        const bool written = out->set_ioproxy(&proxy) && out->open(temporary, spec) &&
-                             out->write_image(type, top, OIIO::AutoStride, -row * static_cast<OIIO::stride_t>(sizeof(T))) && out->close();
+        const bool written =
+            out->set_ioproxy(&proxy) && out->open(temporary, spec) &&
+            out->write_image(type, top, OIIO::AutoStride, -row * static_cast<OIIO::stride_t>(sizeof(T))) &&
+            out->close();
         if (!stream.complete()) fail(path, std::strerror(errno));
         if (!written) fail(path, out->has_error() ? out->geterror() : "the file could not be completed");
     });
@@ -73,7 +76,8 @@ std::uint8_t encoded(float linear) {
 void write_exr(const std::string& path, int width, int height, const std::vector<std::string>& channels,
                std::span<const float> pixels, const std::map<std::string, std::string>& metadata, Depth depth) {
     check_size(path, width, height, channels.size(), pixels.size());
-    OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), depth == Depth::half ? OIIO::TypeHalf : OIIO::TypeFloat);
+    OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()),
+                         depth == Depth::half ? OIIO::TypeHalf : OIIO::TypeFloat);
     spec.channelnames = channels;
     spec.alpha_channel = -1;
     spec.attribute("compression", "zip");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of every description struct, listed once: the reader, the writer and the list of known keys all walk these.
+// The fields of every description struct, listed once: the reader, the writer and the list of known keys all walk
+// these.
 #pragma once
 
 #include "scene/scene_desc.h"

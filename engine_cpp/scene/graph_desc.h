@@ -16,9 +16,9 @@ using SocketValue = std::array<float, 4>;
 
 /// An input: either linked to another node's output, or the socket's value.
 struct InputDesc {
-    int node = -1;                 ///< index into GraphDesc::nodes; -1: not linked
-    std::string socket;            ///< output identifier of that node
-    std::string type;              ///< Blender socket type of the *source*: VALUE INT BOOLEAN VECTOR RGBA SHADER
+    int node = -1;       ///< index into GraphDesc::nodes; -1: not linked
+    std::string socket;  ///< output identifier of that node
+    std::string type;    ///< Blender socket type of the *source*: VALUE INT BOOLEAN VECTOR RGBA SHADER
     SocketValue value{0, 0, 0, 0};
     bool linked() const { return node >= 0; }
 };
@@ -27,8 +27,8 @@ struct InputDesc {
 using ParamValue = std::variant<bool, double, std::string, std::vector<double>>;
 
 struct NodeDesc {
-    std::string name;                         ///< as the artist sees it, for messages
-    std::string type;                         ///< Blender's bl_idname, e.g. ShaderNodeBsdfPrincipled
+    std::string name;  ///< as the artist sees it, for messages
+    std::string type;  ///< Blender's bl_idname, e.g. ShaderNodeBsdfPrincipled
     std::map<std::string, ParamValue> params;
     std::map<std::string, InputDesc> inputs;  ///< by socket identifier
 };

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JSON ⇄ the structs of scene_desc.h and graph_desc.h, with their field names as keys (docs/python-api.md). Used by the
-// scene file, the command line and the Python module. Reading is strict: an unknown key, a wrong type or a number that does
-// not fit throws SceneError with a message that names the object and the key; a key that is absent keeps its default.
+// scene file, the command line and the Python module. Reading is strict: an unknown key, a wrong type or a number that
+// does not fit throws SceneError with a message that names the object and the key; a key that is absent keeps its
+// default.
 //
 //   enums       lower-case enumerator names ("channel_packed")
 //   transforms  12 numbers (row-major 3×4), 16 numbers, or 3 or 4 rows of 4
 //   numbers     non-finite ones may be written as "nan", "inf", "-inf" (JSON has no spelling for them)
 //   bytes       a JSON binary value or a list of 0…255
-//   sockets     a number, flag, list of 1…4 numbers, null (shader sockets), {"node", "socket", "type"} for a link, or text:
-//               kept as InputDesc{type "STRING", socket = the text}
+//   sockets     a number, flag, list of 1…4 numbers, null (shader sockets), {"node", "socket", "type"} for a link,
+//               or text: kept as InputDesc{type "STRING", socket = the text}
 #pragma once
 
 #include "scene/error.h"
@@ -39,8 +40,8 @@ public:
     virtual void get(std::uint64_t at, std::span<std::byte> out) = 0;
 };
 
-/// T: ImageDesc, MaterialDesc, GraphDesc, MeshDesc, InstanceDesc, GroupDesc, LightDesc, WorldDesc, CameraDesc, Settings,
-/// SceneDesc. Without a sink or source, arrays are lists inside the JSON.
+/// T: ImageDesc, MaterialDesc, GraphDesc, MeshDesc, InstanceDesc, GroupDesc, LightDesc, WorldDesc, CameraDesc,
+/// Settings, SceneDesc. Without a sink or source, arrays are lists inside the JSON.
 template <class T>
 Json write_json(const T& value, ArraySink* arrays = nullptr);
 template <class T>

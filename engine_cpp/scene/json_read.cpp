@@ -22,9 +22,7 @@ template <class Prefix, class Step>
 void within(Prefix prefix, Step step) {
     try {
         step();
-    } catch (const SceneError& error) {
-        throw SceneError(prefix() + ": " + error.what());
-    }
+    } catch (const SceneError& error) { throw SceneError(prefix() + ": " + error.what()); }
 }
 
 struct KnownKeys {
@@ -37,7 +35,9 @@ struct KnownKeys {
 
 class Reader;
 template <class T>
-concept Described = requires(Reader& r, T& d) { fields(r, d); };
+concept Described = requires(Reader& r, T& d) {
+    fields(r, d);
+};
 
 class Reader {
 public:
@@ -87,7 +87,7 @@ private:
         out = json.get<bool>();
     }
     template <class T>
-        requires std::is_integral_v<T>
+    requires std::is_integral_v<T>
     void read(const Json& json, T& out) {
         if (!json.is_number_integer()) wrong_type("an integer", json);
         const bool fits = json.is_number_unsigned() ? std::in_range<T>(json.get<std::uint64_t>())
@@ -116,7 +116,7 @@ private:
         out = json.get<std::string>();
     }
     template <class E>
-        requires std::is_enum_v<E>
+    requires std::is_enum_v<E>
     void read(const Json& json, E& out) {
         std::string text;
         read(json, text);
@@ -140,7 +140,8 @@ private:
         std::vector<float> flat;
         for (const Json& row : json) {
             const std::size_t width = row.is_array() ? row.size() : 1;
-            if (row.is_array() && width != 4) throw SceneError("a matrix row has " + std::to_string(width) + " numbers, not 4");
+            if (row.is_array() && width != 4)
+                throw SceneError("a matrix row has " + std::to_string(width) + " numbers, not 4");
             for (std::size_t i = 0; i < width; ++i) read(row.is_array() ? row[i] : row, flat.emplace_back());
         }
         if (flat.size() != 12 && flat.size() != 16)
@@ -159,8 +160,8 @@ private:
         if (!json.is_array()) wrong_type("a list", json);
         out.clear();
         out.reserve(json.size());
-        for (const Json& item : json) within([&] { return "item " + std::to_string(out.size() - 1); },
-                                             [&] { read(item, out.emplace_back()); });
+        for (const Json& item : json)
+            within([&] { return "item " + std::to_string(out.size() - 1); }, [&] { read(item, out.emplace_back()); });
     }
     template <class T>
     void read(const Json& json, std::optional<T>& out) {
@@ -222,7 +223,8 @@ private:
         } else if (json.is_boolean()) {
             out.value[0] = json.get<bool>() ? 1.0f : 0.0f;
         } else if (json.is_array()) {
-            if (json.empty() || json.size() > 4) throw SceneError("a socket has 1 to 4 numbers, not " + std::to_string(json.size()));
+            if (json.empty() || json.size() > 4)
+                throw SceneError("a socket has 1 to 4 numbers, not " + std::to_string(json.size()));
             for (std::size_t i = 0; i < json.size(); ++i) read(json[i], out.value[i]);
         } else if (!json.is_null()) {
             read(json, out.value[0]);

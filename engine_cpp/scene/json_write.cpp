@@ -11,7 +11,9 @@ namespace {
 
 class Writer;
 template <class T>
-concept Described = requires(Writer& w, const T& d) { fields(w, d); };
+concept Described = requires(Writer& w, const T& d) {
+    fields(w, d);
+};
 
 class Writer {
 public:
@@ -33,10 +35,7 @@ public:
 
 private:
     template <class T>
-        requires std::is_integral_v<T>
-    Json write(T value) {
-        return value;
-    }
+    requires std::is_integral_v<T> Json write(T value) { return value; }
     Json write(float value) { return write(static_cast<double>(value)); }
     Json write(double value) {
         if (std::isfinite(value)) return value;
@@ -44,10 +43,7 @@ private:
     }
     Json write(const std::string& value) { return value; }
     template <class E>
-        requires std::is_enum_v<E>
-    Json write(E value) {
-        return EnumNames<E>::names[static_cast<std::size_t>(value)];
-    }
+    requires std::is_enum_v<E> Json write(E value) { return EnumNames<E>::names[static_cast<std::size_t>(value)]; }
     Json write(const Float3& value) { return {write(value.x), write(value.y), write(value.z)}; }
     Json write(const Affine& value) { return write(value.m); }
     template <class T, std::size_t n>

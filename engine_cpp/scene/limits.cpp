@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/limits.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <unistd.h>
 
 namespace cardioid::scene {
 namespace {
@@ -28,7 +28,8 @@ std::int64_t bytes(const std::vector<T>& values) {
 }
 
 std::int64_t mesh_bytes(const MeshDesc& mesh) {
-    std::int64_t arrays = bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.slots) + bytes(mesh.corner_normals);
+    std::int64_t arrays =
+        bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.slots) + bytes(mesh.corner_normals);
     for (const AttributeDesc& attribute : mesh.attributes) arrays += bytes(attribute.data);
     // The description stays alive beside the built tables.
     return 2 * arrays + static_cast<std::int64_t>(mesh.triangles.size() / 3) * k_tree_bytes_per_triangle;
@@ -60,7 +61,8 @@ MemoryEstimate memory_estimate(const SceneDesc& scene) {
 
     const Settings& s = scene.settings;
     const bool cropped = s.crop[2] > 0 && s.crop[3] > 0;
-    const std::int64_t width = std::max(cropped ? s.crop[2] : s.width, 0), height = std::max(cropped ? s.crop[3] : s.height, 0);
+    const std::int64_t width = std::max(cropped ? s.crop[2] : s.width, 0),
+                       height = std::max(cropped ? s.crop[3] : s.height, 0);
     estimate.film = times(width * height, k_film_bytes_per_pixel);
     return estimate;
 }
@@ -83,9 +85,9 @@ std::string memory_problem(const SceneDesc& scene) {
     const bool limited = s.memory_limit > 0;
     const std::int64_t have = limited ? s.memory_limit : machine_memory();
     if (need <= have) return {};
-    return "the scene needs about " + readable(need) + " (" + readable(estimate.film) + " for " + std::to_string(s.width) +
-           " × " + std::to_string(s.height) + " pixels, " + readable(estimate.geometry) + " for geometry), but " +
-           (limited ? "the memory limit is " : "this machine has ") + readable(have);
+    return "the scene needs about " + readable(need) + " (" + readable(estimate.film) + " for " +
+           std::to_string(s.width) + " × " + std::to_string(s.height) + " pixels, " + readable(estimate.geometry) +
+           " for geometry), but " + (limited ? "the memory limit is " : "this machine has ") + readable(have);
 }
 
 }  // namespace cardioid::scene

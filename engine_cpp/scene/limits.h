@@ -11,9 +11,9 @@ namespace cardioid::scene {
 
 /// Bytes, estimated: what the built scene and the film will take while rendering. Saturates instead of overflowing.
 struct MemoryEstimate {
-    std::int64_t geometry = 0;   ///< the description's arrays, the engine's tables and Embree's trees
-    std::int64_t film = 0;       ///< pixel buffers and one published picture
-    std::int64_t textures = 0;   ///< the bound of the tile cache (files), and pixels held in memory
+    std::int64_t geometry = 0;  ///< the description's arrays, the engine's tables and Embree's trees
+    std::int64_t film = 0;      ///< pixel buffers and one published picture
+    std::int64_t textures = 0;  ///< the bound of the tile cache (files), and pixels held in memory
     std::int64_t total() const;
 };
 MemoryEstimate memory_estimate(const SceneDesc& scene);

@@ -31,7 +31,8 @@ inline bool finite(Float3 v) { return finite(v.x) && finite(v.y) && finite(v.z);
 bool finite(const Affine& transform);
 
 /// A replacement for a number that is NaN, infinite or outside [low, high]; true (and a warning) if it was.
-bool repair(ProblemList& problems, const std::string& who, const char* what, float& value, float low, float high, float otherwise);
+bool repair(ProblemList& problems, const std::string& who, const char* what, float& value, float low, float high,
+            float otherwise);
 bool repair(ProblemList& problems, const std::string& who, const char* what, int& value, int low, int high);
 
 /// Names with <UDIM> or <UVTILE> stand for several files.

@@ -3,11 +3,11 @@
 
 #include "scene/error.h"
 
+#include <fcntl.h>
+#include <unistd.h>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
-#include <unistd.h>
 
 namespace cardioid::scene {
 namespace {

@@ -21,8 +21,8 @@ private:
     int descriptor_;
 };
 
-/// `write` fills the file. If it throws, or writing fails, the temporary file is removed and an older `path` is untouched.
-/// Throws SceneError naming `path`.
+/// `write` fills the file. If it throws, or writing fails, the temporary file is removed and an older `path` is
+/// untouched. Throws SceneError naming `path`.
 void replace_file(const std::filesystem::path& path, const std::function<void(FileWriter&)>& write);
 
 /// The same for writers that open files by name: `write` gets the temporary name (same extension as `path`).

@@ -135,8 +135,8 @@ struct WorldDesc {
 
 enum class CameraKind : std::uint8_t { perspective, orthographic };
 
-/// Looks along -z of `transform`. The view plane is at distance 1 (perspective) or in scene units (orthographic), for the
-/// whole frame; lens shift, sensor fit and pixel aspect are in it already.
+/// Looks along -z of `transform`. The view plane is at distance 1 (perspective) or in scene units (orthographic), for
+/// the whole frame; lens shift, sensor fit and pixel aspect are in it already.
 struct CameraDesc {
     std::string name;
     CameraKind kind = CameraKind::perspective;

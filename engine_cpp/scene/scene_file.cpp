@@ -58,7 +58,8 @@ private:
 /// Reads arrays straight from the file's data part.
 class FileBlocks : public ArraySource {
 public:
-    FileBlocks(std::ifstream& file, std::uint64_t begin, std::uint64_t size) : file_(file), begin_(begin), size_(size) {}
+    FileBlocks(std::ifstream& file, std::uint64_t begin, std::uint64_t size)
+        : file_(file), begin_(begin), size_(size) {}
     std::uint64_t available(std::uint64_t at) const override { return at <= size_ ? size_ - at : 0; }
     void get(std::uint64_t at, std::span<std::byte> out) override {
         file_.seekg(static_cast<std::streamoff>(begin_ + at));
@@ -98,7 +99,8 @@ FileHeader read_header(std::ifstream& file, std::uint64_t file_size) {
     const std::uint64_t rest = file_size - sizeof header;
     if (rest < 8 || header.json_bytes > rest - 8 || header.data_bytes > rest - 8 - header.json_bytes)
         throw SceneError("is truncated");
-    if (header.json_bytes + header.data_bytes != rest - 8) throw SceneError("is damaged: it is longer than it should be");
+    if (header.json_bytes + header.data_bytes != rest - 8)
+        throw SceneError("is damaged: it is longer than it should be");
     return header;
 }
 
@@ -123,9 +125,7 @@ SceneDesc load(const std::filesystem::path& path) {
     FileBlocks blocks(file, sizeof header + header.json_bytes, header.data_bytes);
     try {
         return read_json<SceneDesc>(Json::parse(text), &blocks);
-    } catch (const Json::exception& bad) {
-        throw SceneError(std::string("is damaged: ") + bad.what());
-    }
+    } catch (const Json::exception& bad) { throw SceneError(std::string("is damaged: ") + bad.what()); }
 }
 
 }  // namespace
@@ -135,9 +135,7 @@ void save_scene(const SceneDesc& scene, const std::filesystem::path& path) {
     std::string text;
     try {
         text = write_json(scene, &blocks).dump(-1, ' ', false, Json::error_handler_t::replace);
-    } catch (const Json::exception& bad) {
-        throw SceneError("cannot save '" + path.string() + "': " + bad.what());
-    }
+    } catch (const Json::exception& bad) { throw SceneError("cannot save '" + path.string() + "': " + bad.what()); }
     text.append(padding(text.size()), ' ');
     const FileHeader header{.json_bytes = text.size(), .data_bytes = blocks.size()};
 
@@ -163,9 +161,7 @@ SceneDesc load_scene(const std::filesystem::path& path) {
         return load(path);
     } catch (const SceneError& error) {
         throw SceneError("scene file '" + path.string() + "' " + error.what());
-    } catch (const std::bad_alloc&) {
-        throw SceneError("scene file '" + path.string() + "' does not fit in memory");
-    }
+    } catch (const std::bad_alloc&) { throw SceneError("scene file '" + path.string() + "' does not fit in memory"); }
 }
 
 }  // namespace cardioid::scene

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One file for a whole scene: magic, version, a JSON header with the field names of scene_desc.h, raw little-endian arrays
-// and a checksum over everything. See scene/README.md for the layout.
+// One file for a whole scene: magic, version, a JSON header with the field names of scene_desc.h, raw little-endian
+// arrays and a checksum over everything. See scene/README.md for the layout.
 #pragma once
 
 #include "scene/error.h"

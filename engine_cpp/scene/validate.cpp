@@ -14,10 +14,11 @@ constexpr int k_spelled_out = 5;
 
 void check_image_size(ImageDesc& image, const std::string& who, ProblemList& problems) {
     const bool sane = image.width > 0 && image.height > 0 && image.channels > 0 && image.channels <= 4;
-    const std::uint64_t expected = sane ? std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels) : 0;
+    const std::uint64_t expected =
+        sane ? std::uint64_t(image.width) * std::uint64_t(image.height) * std::uint64_t(image.channels) : 0;
     if (sane && expected == image.pixels.size()) return;
-    problems.warn(who, "has " + std::to_string(image.pixels.size()) + " values for " + std::to_string(image.width) + " × " +
-                           std::to_string(image.height) + " pixels of " + std::to_string(image.channels) +
+    problems.warn(who, "has " + std::to_string(image.pixels.size()) + " values for " + std::to_string(image.width) +
+                           " × " + std::to_string(image.height) + " pixels of " + std::to_string(image.channels) +
                            " channels; shown magenta");
     image.pixels.clear();
     image.width = image.height = image.channels = 0;
@@ -98,7 +99,8 @@ bool finite(const Affine& transform) {
     return std::all_of(transform.m.begin(), transform.m.end(), [](float value) { return finite(value); });
 }
 
-bool repair(ProblemList& problems, const std::string& who, const char* what, float& value, float low, float high, float otherwise) {
+bool repair(ProblemList& problems, const std::string& who, const char* what, float& value, float low, float high,
+            float otherwise) {
     if (value >= low && value <= high) return false;
     const float better = std::isnan(value) ? otherwise : std::clamp(value, low, high);
     problems.warn(who, std::string("has ") + what + ' ' + number(value) + "; " + number(better) + " is used");
@@ -109,7 +111,8 @@ bool repair(ProblemList& problems, const std::string& who, const char* what, flo
 bool repair(ProblemList& problems, const std::string& who, const char* what, int& value, int low, int high) {
     if (value >= low && value <= high) return false;
     const int better = std::clamp(value, low, high);
-    problems.warn(who, std::string("has ") + what + ' ' + std::to_string(value) + "; " + std::to_string(better) + " is used");
+    problems.warn(
+        who, std::string("has ") + what + ' ' + std::to_string(value) + "; " + std::to_string(better) + " is used");
     value = better;
     return true;
 }
@@ -131,7 +134,8 @@ std::vector<Problem> validate(SceneDesc& scene) {
 }
 
 bool has_errors(const std::vector<Problem>& problems) {
-    return std::any_of(problems.begin(), problems.end(), [](const Problem& p) { return p.severity == Severity::error; });
+    return std::any_of(problems.begin(), problems.end(),
+                       [](const Problem& p) { return p.severity == Severity::error; });
 }
 
 std::vector<std::string> messages(const std::vector<Problem>& problems) {

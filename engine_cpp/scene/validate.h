@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks a description on entry, names everything that is wrong with the object's name, and leaves it so that the rest of
-// the engine needs no checks of its own: indices in range, sizes right, everything finite.
+// Checks a description on entry, names everything that is wrong with the object's name, and leaves it so that the rest
+// of the engine needs no checks of its own: indices in range, sizes right, everything finite.
 #pragma once
 
 #include "scene/scene_desc.h"
@@ -11,8 +11,8 @@
 namespace cardioid::scene {
 
 enum class Severity : std::uint8_t {
-    warning,   ///< repaired, or dropped from the scene; the rest renders
-    error,     ///< cannot be rendered
+    warning,  ///< repaired, or dropped from the scene; the rest renders
+    error,    ///< cannot be rendered
 };
 
 struct Problem {

@@ -55,7 +55,8 @@ private:
     std::size_t cut_ = 0;
 };
 
-void check_output(OutputDesc& output, const char* what, std::size_t nodes, const std::string& who, ProblemList& problems) {
+void check_output(OutputDesc& output, const char* what, std::size_t nodes, const std::string& who,
+                  ProblemList& problems) {
     if (output.node < 0 || static_cast<std::size_t>(output.node) < nodes) return;
     problems.warn(who, "has a " + std::string(what) + " output linked to a node that does not exist; unlinked");
     output = {};

@@ -6,10 +6,10 @@
 namespace cardioid::scene {
 namespace {
 
-constexpr float k_flat = 1e-4f;   ///< thickness given to an axis that was scaled to zero, relative to the others
+constexpr float k_flat = 1e-4f;  ///< thickness given to an axis that was scaled to zero, relative to the others
 
-/// An object scaled to zero along one axis is still seen, as a sheet: the axis gets a little thickness. False if nothing
-/// of it can be seen.
+/// An object scaled to zero along one axis is still seen, as a sheet: the axis gets a little thickness. False if
+/// nothing of it can be seen.
 bool make_invertible(Affine& transform, bool& repaired) {
     Float3 axis[3] = {transform.column(0), transform.column(1), transform.column(2)};
     float longest = 0;
@@ -72,7 +72,8 @@ private:
             problems_.warn(who, mesh ? "places both a mesh and a group; left out" : "places nothing; left out");
             return false;
         }
-        if (instance.mesh >= static_cast<int>(scene_.meshes.size()) || instance.group >= static_cast<int>(scene_.groups.size())) {
+        if (instance.mesh >= static_cast<int>(scene_.meshes.size()) ||
+            instance.group >= static_cast<int>(scene_.groups.size())) {
             problems_.warn(who, "places a mesh or group that does not exist; left out");
             return false;
         }

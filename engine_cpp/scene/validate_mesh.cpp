@@ -87,7 +87,8 @@ void drop_bad_triangles(MeshDesc& mesh, const std::string& who, ProblemList& pro
         good[i] = std::abs(p[0]) <= k_farthest && std::abs(p[1]) <= k_farthest && std::abs(p[2]) <= k_farthest;
         all_good = all_good && good[i];
     }
-    const bool in_range = std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](std::uint32_t v) { return v < vertices; });
+    const bool in_range =
+        std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](std::uint32_t v) { return v < vertices; });
     if (all_good && in_range) return;
 
     std::vector<bool> keep(triangles);
@@ -100,9 +101,11 @@ void drop_bad_triangles(MeshDesc& mesh, const std::string& who, ProblemList& pro
         infinite += known && !keep[t];
     }
     if (infinite > 0)
-        problems.warn(who, "has vertices that are not finite; " + counted(infinite, "triangle", "triangles") + " left out");
+        problems.warn(who,
+                      "has vertices that are not finite; " + counted(infinite, "triangle", "triangles") + " left out");
     if (outside > 0)
-        problems.warn(who, "has " + counted(outside, "triangle", "triangles") + " with vertex indices out of range; left out");
+        problems.warn(
+            who, "has " + counted(outside, "triangle", "triangles") + " with vertex indices out of range; left out");
     keep_triangles(mesh, keep);
     for (std::size_t i = 0; i < vertices; ++i)
         if (!good[i]) std::fill_n(mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.0f);
@@ -125,7 +128,8 @@ void repair_normals(MeshDesc& mesh, const std::string& who, ProblemList& problem
         const Float3 face = normalize(cross(vertex(mesh, first + 1) - p, vertex(mesh, first + 2) - p));
         n[0] = face.x, n[1] = face.y, n[2] = face.z;
     }
-    if (bad > 0) problems.warn(who, "has " + counted(bad, "normal that is", "normals that are") + " not finite; flat there");
+    if (bad > 0)
+        problems.warn(who, "has " + counted(bad, "normal that is", "normals that are") + " not finite; flat there");
 }
 
 void repair_attributes(MeshDesc& mesh, const std::string& who, ProblemList& problems) {
@@ -142,7 +146,8 @@ void repair_attributes(MeshDesc& mesh, const std::string& who, ProblemList& prob
     }
 }
 
-void check_active(const MeshDesc& mesh, std::string& active, const char* what, const std::string& who, ProblemList& problems) {
+void check_active(const MeshDesc& mesh, std::string& active, const char* what, const std::string& who,
+                  ProblemList& problems) {
     if (active.empty()) return;
     for (const AttributeDesc& a : mesh.attributes)
         if (a.name == active) return;

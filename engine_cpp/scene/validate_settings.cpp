@@ -20,9 +20,9 @@ void check_frame(const Settings& s, ProblemList& problems) {
     const bool whole = x == 0 && y == 0 && w == 0 && h == 0;
     const bool inside = x >= 0 && y >= 0 && w > 0 && h > 0 && x <= s.width - w && y <= s.height - h;
     if (!whole && !inside)
-        problems.error("settings: the render border (x " + std::to_string(x) + ", y " + std::to_string(y) + ", " + std::to_string(w) +
-                       " × " + std::to_string(h) + ") does not lie inside the frame of " + std::to_string(s.width) + " × " +
-                       std::to_string(s.height));
+        problems.error("settings: the render border (x " + std::to_string(x) + ", y " + std::to_string(y) + ", " +
+                       std::to_string(w) + " × " + std::to_string(h) + ") does not lie inside the frame of " +
+                       std::to_string(s.width) + " × " + std::to_string(s.height));
 }
 
 void check_samples(const Settings& s, ProblemList& problems) {
@@ -58,7 +58,8 @@ void repair_settings(Settings& s, ProblemList& problems) {
 void check_lens(CameraDesc& camera, const std::string& who, ProblemList& problems) {
     repair(problems, who, "clip_start", camera.clip_start, 0, k_large, 0);
     repair(problems, who, "clip_end", camera.clip_end, 0, k_large, k_large);
-    if (camera.clip_end <= camera.clip_start) problems.warn(who, "clips everything: its clip end is not beyond its clip start");
+    if (camera.clip_end <= camera.clip_start)
+        problems.warn(who, "clips everything: its clip end is not beyond its clip start");
     repair(problems, who, "aperture_radius", camera.aperture_radius, 0, k_large, 0);
     repair(problems, who, "focus_distance", camera.focus_distance, 1e-5f, k_large, 10);
     repair(problems, who, "blades", camera.blades, 0, 1024);
@@ -73,7 +74,8 @@ void check_camera(SceneDesc& scene, ProblemList& problems) {
     if (!finite(camera.transform) || camera.transform.determinant() == 0)
         return problems.error(who + " has a transform that is singular or not finite");
     const auto& view = camera.view_plane;
-    const bool open = std::all_of(view.begin(), view.end(), [](float v) { return finite(v); }) && view[0] != view[1] && view[2] != view[3];
+    const bool open = std::all_of(view.begin(), view.end(), [](float v) { return finite(v); }) && view[0] != view[1] &&
+                      view[2] != view[3];
     if (!open) return problems.error(who + " has an empty view");
     check_lens(camera, who, problems);
 }

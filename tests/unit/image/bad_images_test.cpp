@@ -51,7 +51,8 @@ TEST(BadImages, FoldersEmptyNamesAndEmptyData) {
     packed.source = scene::ImageSource::packed;
     expect_magenta(ImageStore({packed}, "", 64), 0, "packed but empty");
     for (const auto& [width, height, channels] : {std::tuple{0, 0, 0}, {0, 4, 3}, {2, 2, 3}, {-1, -4, 1}, {1, 1, 5}})
-        expect_magenta(ImageStore({test::pixel_image(width, height, channels, {1, 2, 3, 4})}, "", 64), 0, "has no pixels");
+        expect_magenta(ImageStore({test::pixel_image(width, height, channels, {1, 2, 3, 4})}, "", 64), 0,
+                       "has no pixels");
 }
 
 TEST(BadImages, TextThatIsNoImage) {
@@ -87,7 +88,8 @@ TEST(BadImages, TruncatedAndDamagedFiles) {
         for (std::size_t i = 1; i < 8; ++i) cuts.push_back(whole.size() * i / 8);
         for (const std::size_t size : cuts) {
             SCOPED_TRACE(name + " cut to " + std::to_string(size));
-            test::write_bytes(path, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min(size, whole.size()))});
+            test::write_bytes(
+                path, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min(size, whole.size()))});
             expect_no_crash(test::file_image(path));
             expect_no_crash(test::packed_image(path));
         }
@@ -105,7 +107,9 @@ TEST(BadImages, TruncatedAndDamagedFiles) {
 TEST(BadImages, DamageInTheMiddleIsNamed) {
     const test::Folder folder;
     const std::string path = folder.file("half.png");
-    test::write_file(path, {64, 256, 3}, [](int x, int y, int c) { return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 251) / 251; });
+    test::write_file(path, {64, 256, 3}, [](int x, int y, int c) {
+        return static_cast<float>((x * 7919 + y * 104729 + c * 31) % 251) / 251;
+    });
     std::vector<std::uint8_t> bytes = test::bytes_of_file(path);
     bytes.resize(bytes.size() / 2);
     test::write_bytes(path, bytes);
@@ -120,12 +124,17 @@ TEST(BadImages, NanAndInfinityBecomeBlackAndAreCounted) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     const test::Folder folder;
     const std::string path = folder.file("hdr.exr");
-    test::write_file(path, {4, 1, 3, OIIO::TypeFloat}, [&](int x, int, int c) { return x == 1 && c == 2 ? nan : x == 2 && c == 0 ? inf : 7.0f; });
+    test::write_file(path, {4, 1, 3, OIIO::TypeFloat}, [&](int x, int, int c) {
+        return x == 1 && c == 2 ? nan : x == 2 && c == 0 ? inf : 7.0f;
+    });
     const std::string half = folder.file("half.exr");
-    test::write_file(half, {4, 1, 3, OIIO::TypeHalf}, [&](int x, int, int c) { return x == 1 && c == 2 ? nan : x == 2 && c == 0 ? -inf : 7.0f; });
+    test::write_file(half, {4, 1, 3, OIIO::TypeHalf}, [&](int x, int, int c) {
+        return x == 1 && c == 2 ? nan : x == 2 && c == 0 ? -inf : 7.0f;
+    });
     const std::vector<float> pixels = {7, 7, 7, 7, 7, nan, -inf, 7, 7, 7, 7, 7};
-    for (const scene::ImageDesc& image : {test::file_image(path, "Linear"), test::file_image(half, "Linear"), test::packed_image(path, "Linear"),
-                                          test::pixel_image(4, 1, 3, pixels, "Linear")}) {
+    for (const scene::ImageDesc& image :
+         {test::file_image(path, "Linear"), test::file_image(half, "Linear"), test::packed_image(path, "Linear"),
+          test::pixel_image(4, 1, 3, pixels, "Linear")}) {
         const ImageStore store({image}, "", 64);
         EXPECT_EQ(test::texel(store, 0, 0, 0), (Color{7, 7, 7, 1}));
         for (const int x : {1, 2}) {

@@ -14,13 +14,17 @@ namespace {
 constexpr std::int64_t k_megabyte = 1 << 20;
 
 /// Differs between images and texels; exact in 8 bits.
-float value_of(int image, int x, int y, int c) { return static_cast<float>((image * 37 + x * 3 + y * 7 + c * 50) & 255) / 255; }
+float value_of(int image, int x, int y, int c) {
+    return static_cast<float>((image * 37 + x * 3 + y * 7 + c * 50) & 255) / 255;
+}
 
-std::vector<scene::ImageDesc> many_images(const test::Folder& folder, int count, int side, const std::string& extension, int tile) {
+std::vector<scene::ImageDesc> many_images(const test::Folder& folder, int count, int side, const std::string& extension,
+                                          int tile) {
     std::vector<scene::ImageDesc> images;
     for (int i = 0; i < count; ++i) {
         const std::string path = folder.file(std::to_string(i) + extension);
-        test::write_file(path, {side, side, 3, OIIO::TypeUInt8, tile}, [&](int x, int y, int c) { return value_of(i, x, y, c); });
+        test::write_file(path, {side, side, 3, OIIO::TypeUInt8, tile},
+                         [&](int x, int y, int c) { return value_of(i, x, y, c); });
         images.push_back(test::file_image(path));
     }
     return images;
@@ -35,7 +39,8 @@ std::int64_t wander(const ImageStore& store, int side, int lookups, unsigned see
         float u[16], v[16];
         int x[16], y[16];
         for (int k = 0; k < 16; ++k) {
-            x[k] = static_cast<int>(generator() % static_cast<unsigned>(side)), y[k] = static_cast<int>(generator() % static_cast<unsigned>(side));
+            x[k] = static_cast<int>(generator() % static_cast<unsigned>(side)),
+            y[k] = static_cast<int>(generator() % static_cast<unsigned>(side));
             u[k] = (static_cast<float>(x[k]) + 0.5f) / static_cast<float>(side);
             v[k] = 1 - (static_cast<float>(y[k]) + 0.5f) / static_cast<float>(side);
         }

@@ -17,7 +17,8 @@ constexpr const char* k_blender_config = "/usr/share/blender/datafiles/colormana
 
 const std::vector<float> k_pixel = {0.5f, 0.25f, 1};
 
-Color convert(const std::string& space, const std::string& config, std::size_t warnings = 0, std::vector<float> pixel = k_pixel) {
+Color convert(const std::string& space, const std::string& config, std::size_t warnings = 0,
+              std::vector<float> pixel = k_pixel) {
     const ImageStore store({test::pixel_image(1, 1, static_cast<int>(pixel.size()), pixel, space)}, config, 64);
     EXPECT_EQ(store.warnings().size(), warnings) << space;
     return test::texel(store, 0, 0, 0);
@@ -36,13 +37,16 @@ void expect_unchanged(const std::string& space, const std::string& config) {
 
 TEST(ColorSpaces, BuiltInNamesOfEveryVersion) {
     for (const char* name : {"sRGB", "sRGB OETF", "srgb_texture", "Utility - sRGB - Texture"}) expect_srgb(name, "");
-    for (const char* name : {"Linear", "Linear Rec.709", "Linear BT.709", "lin_rec709_scene", "scene_linear", "Rec.709"}) expect_unchanged(name, "");
+    for (const char* name :
+         {"Linear", "Linear Rec.709", "Linear BT.709", "lin_rec709_scene", "scene_linear", "Rec.709"})
+        expect_unchanged(name, "");
     for (const char* name : {"Non-Color", "Raw", "Non-Colour Data", "Generic Data", ""}) expect_unchanged(name, "");
 }
 
 TEST(ColorSpaces, UnknownNamesAreNamedOnce) {
     std::vector<scene::ImageDesc> images;
-    for (const char* space : {"AgX Log", "Filmic Log", "AgX Log", "sRGB", "Non-Color"}) images.push_back(test::pixel_image(1, 1, 3, k_pixel, space));
+    for (const char* space : {"AgX Log", "Filmic Log", "AgX Log", "sRGB", "Non-Color"})
+        images.push_back(test::pixel_image(1, 1, 3, k_pixel, space));
     for (const std::string config : {"", "/no/such/config.ocio"}) {
         const ImageStore store(images, config, 64);
         ASSERT_EQ(store.warnings().size(), 1u);
@@ -181,8 +185,10 @@ TEST(ColorSpaces, BlendersOwnConfiguration) {
     text.replace(text.find("scene_linear: Linear"), 20, "scene_linear: 'Linear'");
     const std::string copy = folder.file("config.ocio");
     test::write_bytes(copy, {text.begin(), text.end()});
-    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "luts", folder.file("luts"));
-    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "filmic", folder.file("filmic"));
+    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "luts",
+                                              folder.file("luts"));
+    std::filesystem::create_directory_symlink(std::filesystem::path(k_blender_config).parent_path() / "filmic",
+                                              folder.file("filmic"));
     ColorSpaces slow(copy), quick(k_blender_config);
     for (const char* name : {"sRGB", "Linear", "Non-Color", "Raw"}) {
         EXPECT_EQ(slow.find(name, true).transfer, quick.find(name, true).transfer) << name;
@@ -200,7 +206,9 @@ TEST(ColorSpaces, BlendersOwnConfiguration) {
 class Alpha : public testing::Test {
 protected:
     Alpha() : path_(folder_.file("a.png")) {
-        test::write_file(path_, {1, 1, 4, OIIO::TypeUInt16}, [](int, int, int c) { return std::array{0.8f, 0.4f, 0.2f, 0.5f}[static_cast<std::size_t>(c)]; });
+        test::write_file(path_, {1, 1, 4, OIIO::TypeUInt16}, [](int, int, int c) {
+            return std::array{0.8f, 0.4f, 0.2f, 0.5f}[static_cast<std::size_t>(c)];
+        });
     }
     void expect(scene::AlphaMode mode, const std::string& space, Color straight, Color associated) const {
         scene::ImageDesc file = test::file_image(path_, space);
@@ -208,9 +216,11 @@ protected:
         scene::ImageDesc pixels = test::pixel_image(1, 1, 4, {0.8f, 0.4f, 0.2f, 0.5f}, space);
         file.alpha_mode = packed.alpha_mode = pixels.alpha_mode = mode;
         const bool premultiplied_pixels = mode == scene::AlphaMode::premultiplied;
-        const ImageStore store(premultiplied_pixels ? std::vector{file, packed} : std::vector{file, packed, pixels}, "", 64);
+        const ImageStore store(premultiplied_pixels ? std::vector{file, packed} : std::vector{file, packed, pixels}, "",
+                               64);
         for (int i = 0; i < store.size(); ++i) {
-            const Color a = test::texel(store, i, 0, 0, AlphaUse::straight), b = test::texel(store, i, 0, 0, AlphaUse::associated);
+            const Color a = test::texel(store, i, 0, 0, AlphaUse::straight),
+                        b = test::texel(store, i, 0, 0, AlphaUse::associated);
             for (std::size_t c = 0; c < 4; ++c) {
                 EXPECT_NEAR(a[c], straight[c], 2e-5) << "straight, image " << i << " channel " << c;
                 EXPECT_NEAR(b[c], associated[c], 2e-5) << "associated, image " << i << " channel " << c;
@@ -222,7 +232,9 @@ protected:
     std::string path_;
 };
 
-TEST_F(Alpha, Straight) { expect(scene::AlphaMode::straight, "Linear", {0.8f, 0.4f, 0.2f, 0.5f}, {0.4f, 0.2f, 0.1f, 0.5f}); }
+TEST_F(Alpha, Straight) {
+    expect(scene::AlphaMode::straight, "Linear", {0.8f, 0.4f, 0.2f, 0.5f}, {0.4f, 0.2f, 0.1f, 0.5f});
+}
 
 TEST_F(Alpha, PremultipliedIsDecidedByTheFile) {
     expect(scene::AlphaMode::premultiplied, "Linear", {0.8f, 0.4f, 0.2f, 0.5f}, {0.4f, 0.2f, 0.1f, 0.5f});
@@ -267,7 +279,9 @@ TEST(AlphaOfFiles, TransparentTexelsDoNotBleed) {
     const test::Folder folder;
     const std::string path = folder.file("a.png");
     // Red at alpha 1 beside green at alpha 0: halfway the straight colour is still red.
-    test::write_file(path, {2, 1, 4}, [](int x, int, int c) { return c == 3 ? 1.0f - static_cast<float>(x) : c == x ? 1.0f : 0.0f; });
+    test::write_file(path, {2, 1, 4}, [](int x, int, int c) {
+        return c == 3 ? 1.0f - static_cast<float>(x) : c == x ? 1.0f : 0.0f;
+    });
     const ImageStore store({test::file_image(path, "sRGB")}, "", 64);
     const Color color = test::look(store, 0, 0.5f, 0.5f, Interpolation::linear);
     EXPECT_NEAR(color[0], 1, 1e-5);
@@ -278,7 +292,9 @@ TEST(AlphaOfFiles, TransparentTexelsDoNotBleed) {
 TEST(MeanColor, IsTheMeanOfLinearColours) {
     const test::Folder folder;
     const std::string path = folder.file("a.png");
-    test::write_file(path, {100, 70, 3}, [](int x, int, int c) { return c == 0 ? (x < 50 ? 1.0f : 0.0f) : c == 1 ? 128.0f / 255 : 0; });
+    test::write_file(path, {100, 70, 3}, [](int x, int, int c) {
+        return c == 0 ? (x < 50 ? 1.0f : 0.0f) : c == 1 ? 128.0f / 255 : 0;
+    });
     const ImageStore store({test::file_image(path, "sRGB"), test::pixel_image(2, 1, 1, {1, 3}, "Linear")}, "", 64);
     EXPECT_NEAR(store.mean_color(0).x, 0.5f, 1e-5);
     EXPECT_NEAR(store.mean_color(0).y, 0.2158605f, 1e-5);

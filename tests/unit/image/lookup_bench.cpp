@@ -49,7 +49,8 @@ double measure(const Points& points, Lookup lookup) {
     double best = 1e30;
     for (int round = 0; round < 9; ++round) {
         const double start = cpu_ns();
-        for (int i = 0; i < k_points; i += 64) lookup(&points.u[static_cast<std::size_t>(i)], &points.v[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < k_points; i += 64)
+            lookup(&points.u[static_cast<std::size_t>(i)], &points.v[static_cast<std::size_t>(i)]);
         best = std::min(best, (cpu_ns() - start) / k_points);
     }
     return best;
@@ -58,7 +59,9 @@ double measure(const Points& points, Lookup lookup) {
 double ours(const std::string& path, const std::string& space, Interpolation interpolation, const Points& points) {
     const ImageStore store({test::file_image(path, space)}, "", 1024);
     Row rgba[4];
-    return measure(points, [&](const float* u, const float* v) { store.lookup(0, interpolation, Extension::repeat, 64, u, v, rgba); });
+    return measure(points, [&](const float* u, const float* v) {
+        store.lookup(0, interpolation, Extension::repeat, 64, u, v, rgba);
+    });
 }
 
 double texture_system(const std::string& path, const Points& points) {
@@ -109,12 +112,16 @@ double cache_tiles(const std::string& path, const Points& points) {
             return slot.data + ((y & 63) * 64 + (x & 63)) * 3;
         };
         for (int i = 0; i < 64; ++i) {
-            const float x = u[i] * static_cast<float>(spec.width) - 0.5f, y = v[i] * static_cast<float>(spec.height) - 0.5f;
+            const float x = u[i] * static_cast<float>(spec.width) - 0.5f,
+                        y = v[i] * static_cast<float>(spec.height) - 0.5f;
             const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y));
             const float s = x - static_cast<float>(ix), t = y - static_cast<float>(iy);
-            const std::uint8_t *a = texel(ix, iy), *b = texel(ix + 1, iy), *c = texel(ix, iy + 1), *d = texel(ix + 1, iy + 1);
+            const std::uint8_t *a = texel(ix, iy), *b = texel(ix + 1, iy), *c = texel(ix, iy + 1),
+                               *d = texel(ix + 1, iy + 1);
             for (int k = 0; k < 3; ++k)
-                color[k] = ((1 - t) * ((1 - s) * float(a[k]) + s * float(b[k])) + t * ((1 - s) * float(c[k]) + s * float(d[k]))) / 255;
+                color[k] = ((1 - t) * ((1 - s) * float(a[k]) + s * float(b[k])) +
+                            t * ((1 - s) * float(c[k]) + s * float(d[k]))) /
+                           255;
         }
         for (Held& slot : held)
             if (slot.tile) cache->release_tile(slot.tile);
@@ -126,7 +133,8 @@ double cache_tiles(const std::string& path, const Points& points) {
 int run() {
     const test::Folder folder;
     const auto pattern = [](int x, int y, int c) { return static_cast<float>((x * 3 + y * 7 + c * 50) & 255) / 255; };
-    const std::string png = folder.file("a.png"), alpha = folder.file("b.png"), exr = folder.file("c.exr"), real = folder.file("d.tif");
+    const std::string png = folder.file("a.png"), alpha = folder.file("b.png"), exr = folder.file("c.exr"),
+                      real = folder.file("d.tif");
     test::write_file(png, {2048, 2048, 3}, pattern);
     test::write_file(alpha, {2048, 2048, 4}, pattern);
     test::write_file(exr, {2048, 2048, 3, OIIO::TypeHalf}, pattern);

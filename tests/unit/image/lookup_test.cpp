@@ -72,25 +72,28 @@ std::vector<float> coordinates(int size, unsigned seed) {
     return out;
 }
 
-void expect_like_reference(const ImageStore& store, int image, const Reference& reference, double tolerance, bool grey = false) {
+void expect_like_reference(const ImageStore& store, int image, const Reference& reference, double tolerance,
+                           bool grey = false) {
     for (const Interpolation interpolation : k_interpolations) {
         for (const Extension extension : k_extensions) {
             const std::vector<float> u = coordinates(reference.width, 1), v = coordinates(reference.height, 2);
             Row rgba[4];
             store.lookup(image, interpolation, extension, 64, u.data(), v.data(), rgba, AlphaUse::associated);
             for (std::size_t i = 0; i < 64; ++i) {
-                const auto expected = reference.at(interpolation, extension, static_cast<double>(u[i]), static_cast<double>(v[i]));
+                const auto expected =
+                    reference.at(interpolation, extension, static_cast<double>(u[i]), static_cast<double>(v[i]));
                 for (std::size_t c = 0; c < 4; ++c)
                     ASSERT_NEAR(static_cast<double>(rgba[c][i]), c == 3 && grey ? 1.0 : expected[c], tolerance)
-                        << "interpolation " << int(interpolation) << " extension " << int(extension) << " u " << u[i] << " v " << v[i]
-                        << " channel " << c;
+                        << "interpolation " << int(interpolation) << " extension " << int(extension) << " u " << u[i]
+                        << " v " << v[i] << " channel " << c;
             }
         }
     }
 }
 
 float noise(int x, int y, int c) {
-    const unsigned h = static_cast<unsigned>(x) * 73856093u ^ static_cast<unsigned>(y) * 19349663u ^ static_cast<unsigned>(c + 1) * 83492791u;
+    const unsigned h = static_cast<unsigned>(x) * 73856093u ^ static_cast<unsigned>(y) * 19349663u ^
+                       static_cast<unsigned>(c + 1) * 83492791u;
     return static_cast<float>((h * 2654435761u) >> 8) / static_cast<float>(1 << 24);
 }
 
@@ -99,14 +102,16 @@ Reference reference_of_pixels(int width, int height, int channels, const std::ve
     for (int i = 0; i < width * height; ++i) {
         const auto p = [&](int c) { return static_cast<double>(pixels[static_cast<std::size_t>(i * channels + c)]); };
         const double grey = p(0);
-        r.texels.push_back({grey, channels >= 3 ? p(1) : grey, channels >= 3 ? p(2) : grey, channels % 2 == 0 ? p(channels - 1) : 1.0});
+        r.texels.push_back({grey, channels >= 3 ? p(1) : grey, channels >= 3 ? p(2) : grey,
+                            channels % 2 == 0 ? p(channels - 1) : 1.0});
     }
     return r;
 }
 
 TEST(Lookup, FloatPixelsOfManySizesAndChannels) {
     // Sizes around the tile of 64 and below the four texels of a cubic footprint.
-    for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {3, 2}, {5, 4}, {64, 64}, {65, 63}, {130, 70}, {200, 129}}) {
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {2, 3}, {3, 2}, {5, 4}, {64, 64}, {65, 63}, {130, 70}, {200, 129}}) {
         for (int channels = 1; channels <= 4; ++channels) {
             std::vector<float> pixels;
             for (int y = 0; y < height; ++y)
@@ -127,13 +132,18 @@ TEST_P(FileFormats, ReadLikeTheirPattern) {
     const int width = 150, height = 100;
     const std::string path = folder.file("image." + extension);
     // Alpha is 1: how it acts is the subject of other tests.
-    const auto pattern = [&](int x, int y, int c) { return channels % 2 == 0 && c == channels - 1 ? 1.0f : noise(x, y, c); };
+    const auto pattern = [&](int x, int y, int c) {
+        return channels % 2 == 0 && c == channels - 1 ? 1.0f : noise(x, y, c);
+    };
     test::write_file(path, {width, height, channels, type, tile}, pattern);
     std::vector<float> pixels;
     for (int y = height - 1; y >= 0; --y)
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < channels; ++c) pixels.push_back(pattern(x, y, c));
-    const double step = type == OIIO::TypeUInt8 ? 0.5 / 255 : type == OIIO::TypeUInt16 ? 1e-5 : type == OIIO::TypeHalf ? 3e-4 : 0;
+    const double step = type == OIIO::TypeUInt8    ? 0.5 / 255
+                        : type == OIIO::TypeUInt16 ? 1e-5
+                        : type == OIIO::TypeHalf   ? 3e-4
+                                                   : 0;
     const ImageStore store({test::file_image(path), test::packed_image(path)}, "", 64);
     ASSERT_EQ(store.warnings(), std::vector<std::string>{});
     ASSERT_EQ(store.width(0), width);
@@ -176,7 +186,8 @@ TEST(Lookup, FarAndMadCoordinatesAreHarmless) {
                     for (int image = 0; image < 2; ++image) {
                         const Color color = test::look(store, image, u, v, interpolation, extension);
                         const bool clip = extension == Extension::clip;
-                        ASSERT_TRUE(color[0] > (clip ? -1e-6f : 0.4999f) && color[0] < 0.5001f) << u << ' ' << v << ' ' << int(extension);
+                        ASSERT_TRUE(color[0] > (clip ? -1e-6f : 0.4999f) && color[0] < 0.5001f)
+                            << u << ' ' << v << ' ' << int(extension);
                     }
 }
 

@@ -29,7 +29,7 @@ def chunk(kind: bytes, data: bytes) -> bytes:
 
 
 def picture(folder: str, depth: str) -> tuple[str, list[int]]:
-    """A PNG of 8 or 16 bits with straight alpha, written by hand so that nothing is converted; its values, bottom row first."""
+    """A PNG with straight alpha, written by hand so that nothing is converted; its values, bottom row first."""
     rng = random.Random(5)
     values = []
     for _ in range(SIZE[0] * SIZE[1]):
@@ -41,7 +41,8 @@ def picture(folder: str, depth: str) -> tuple[str, list[int]]:
     header = struct.pack(">IIBBBBB", *SIZE, int(depth), 6, 0, 0, 0)
     path = os.path.join(folder, f"a{depth}.png")
     with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header))
+        file.write(chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
     return path, values
 
 
@@ -78,8 +79,7 @@ def build(coordinates: list[tuple[float, float]]) -> bpy.types.Material:
     return material
 
 
-def nodes(material: bpy.types.Material, image: bpy.types.Image, interpolation: str, extension: str, output: str) -> None:
-    tree = material.node_tree
+def nodes(tree: bpy.types.NodeTree, image: bpy.types.Image, interpolation: str, extension: str, output: str) -> None:
     tree.nodes.clear()
     info = tree.nodes.new("ShaderNodeObjectInfo")
     texture = tree.nodes.new("ShaderNodeTexImage")
@@ -123,7 +123,8 @@ def coordinates() -> list[tuple[float, float]]:
 
 def cases() -> list[tuple[str, str, str, str, str]]:
     extensions = ["REPEAT", "EXTEND", "CLIP"] + (["MIRROR"] if bpy.app.version >= (3, 5, 0) else [])
-    out = [("8", "sRGB", "CHANNEL_PACKED", i, e) for i, e in itertools.product(("Closest", "Linear", "Cubic"), extensions)]
+    interpolations = ("Closest", "Linear", "Cubic")
+    out = [("8", "sRGB", "CHANNEL_PACKED", i, e) for i, e in itertools.product(interpolations, extensions)]
     modes = ("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE")
     for depth, space, alpha in itertools.product(("8", "16"), ("sRGB", "Non-Color", "Filmic Log"), modes):
         out.append((depth, space, alpha, "Linear", "REPEAT"))
@@ -144,7 +145,7 @@ def main(path: str) -> None:
             image.alpha_mode = alpha
             result = {}
             for output in ("associated", "straight", "alpha"):
-                nodes(material, image, interpolation, extension, output)
+                nodes(material.node_tree, image, interpolation, extension, output)
                 result[output] = render(folder)
             file.write(f"{depth} {space.replace(' ', '_')} {alpha} {interpolation} {extension}\n")
             row: list[float] = []

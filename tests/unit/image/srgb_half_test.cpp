@@ -28,13 +28,16 @@ TEST(Srgb, KnownValues) {
 TEST(Srgb, TheTableFollowsTheCurve) {
     const SrgbTable table;
     for (double x = -0.5; x < 3; x += 1e-4)
-        ASSERT_NEAR(table(static_cast<float>(x)), linear_from_srgb(static_cast<float>(x)), 6e-7 * std::max(1.0, x * x * x)) << x;
+        ASSERT_NEAR(table(static_cast<float>(x)), linear_from_srgb(static_cast<float>(x)),
+                    6e-7 * std::max(1.0, x * x * x))
+            << x;
     EXPECT_EQ(table(1.0f), 1.0f);
 }
 
 std::vector<float> floats_by_library(const std::vector<std::uint16_t>& halves) {
     std::vector<float> floats(halves.size());
-    OIIO::convert_pixel_values(OIIO::TypeHalf, halves.data(), OIIO::TypeFloat, floats.data(), static_cast<int>(halves.size()));
+    OIIO::convert_pixel_values(OIIO::TypeHalf, halves.data(), OIIO::TypeFloat, floats.data(),
+                               static_cast<int>(halves.size()));
     return floats;
 }
 
@@ -56,7 +59,8 @@ TEST(Half, RoundsLikeTheLibrary) {
     std::vector<float> values;
     for (int i = 0; i < 200000; ++i) values.push_back(std::exp2(exponent(generator)) * (i % 2 == 0 ? 1.0f : -1.0f));
     std::vector<std::uint16_t> expected(values.size());
-    OIIO::convert_pixel_values(OIIO::TypeFloat, values.data(), OIIO::TypeHalf, expected.data(), static_cast<int>(values.size()));
+    OIIO::convert_pixel_values(OIIO::TypeFloat, values.data(), OIIO::TypeHalf, expected.data(),
+                               static_cast<int>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i) ASSERT_EQ(half_from_float(values[i]), expected[i]) << values[i];
     EXPECT_EQ(float_from_half(half_from_float(1e9f)), k_half_max);
     EXPECT_EQ(float_from_half(half_from_float(-1e9f)), -k_half_max);

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
 #include <csignal>
 #include <random>
-#include <sys/resource.h>
 
 namespace cardioid::image {
 namespace {
@@ -53,7 +53,8 @@ TEST(WriteExr, ChannelsMetadataAndOrientation) {
 TEST(WriteExr, HalfIsClampedAndRoundTrips) {
     const test::Folder folder;
     const std::string path = folder.file("half.exr");
-    write_exr(path, 2, 1, {"R", "G", "B"}, std::vector<float>{0.5f, 1e9f, std::nanf(""), -0.25f, 2, 1e-5f}, {}, Depth::half);
+    write_exr(path, 2, 1, {"R", "G", "B"}, std::vector<float>{0.5f, 1e9f, std::nanf(""), -0.25f, 2, 1e-5f}, {},
+              Depth::half);
     const ImageStore store({test::file_image(path, "Linear")}, "", 64);
     const test::Color left = test::texel(store, 0, 0, 0), right = test::texel(store, 0, 1, 0);
     EXPECT_EQ(left[0], 0.5f);
@@ -68,7 +69,8 @@ TEST(WritePng, IsAnSrgbView) {
     const test::Folder folder;
     const std::string path = folder.file("view.png");
     write_png(path, 2, 2, 4,
-              std::vector<float>{0.25f, 0.25f, 0.25f, 0.5f, 0, 0, 0, 0, /* top: */ 1, 2, -1, 1, 0.18f, std::nanf(""), 0.5f, 1});
+              std::vector<float>{0.25f, 0.25f, 0.25f, 0.5f, 0, 0, 0, 0, /* top: */ 1, 2, -1, 1, 0.18f, std::nanf(""),
+                                 0.5f, 1});
     const auto in = OIIO::ImageInput::open(path, nullptr);
     ASSERT_TRUE(in);
     OIIO::ImageSpec raw;
@@ -82,12 +84,18 @@ TEST(WritePng, IsAnSrgbView) {
 TEST(Write, ErrorsNameThePath) {
     const test::Folder folder;
     const std::string path = folder.file("no/such/folder/out.exr");
-    for (const auto& write : std::vector<std::function<void()>>{
-             [&] { write_exr(path, 1, 1, {"R"}, std::vector<float>{1}); },
-             [&] { write_png(path, 1, 1, 3, std::vector<float>{1, 1, 1}); },
-             [&] { write_exr(path, 1, 1, {"R"}, std::vector<float>{1, 2}); },
-             [&] { write_png(path, 0, 1, 3, {}); },
-             [&] { write_png(path, 1, 1, 2, std::vector<float>{1, 1}); }}) {
+    for (const auto& write :
+         std::vector<std::function<void()>>{[&] { write_exr(path, 1, 1, {"R"}, std::vector<float>{1}); },
+                                            [&] {
+                                                write_png(path, 1, 1, 3, std::vector<float>{1, 1, 1});
+                                            },
+                                            [&] {
+                                                write_exr(path, 1, 1, {"R"}, std::vector<float>{1, 2});
+                                            },
+                                            [&] { write_png(path, 0, 1, 3, {}); },
+                                            [&] {
+                                                write_png(path, 1, 1, 2, std::vector<float>{1, 1});
+                                            }}) {
         try {
             write();
             FAIL() << "no error";
@@ -106,8 +114,10 @@ TEST(Write, AFullDiskKeepsTheOldFile) {
     for (const std::string name : {"out.exr", "out.png"}) {
         const std::string path = folder.file(name);
         const auto write = [&](int side, std::span<const float> pixels) {
-            if (name == "out.exr") write_exr(path, side, side, {"R", "G", "B"}, pixels);
-            else write_png(path, side, side, 3, pixels);
+            if (name == "out.exr")
+                write_exr(path, side, side, {"R", "G", "B"}, pixels);
+            else
+                write_png(path, side, side, 3, pixels);
         };
         write(1, std::vector<float>{1, 1, 1});
         const std::vector<std::uint8_t> before = test::bytes_of_file(path);

@@ -18,9 +18,7 @@ template <class T>
 std::string error_of(const std::string& text) {
     try {
         read_json<T>(Json::parse(text));
-    } catch (const SceneError& error) {
-        return error.what();
-    }
+    } catch (const SceneError& error) { return error.what(); }
     return {};
 }
 
@@ -86,7 +84,8 @@ TEST(SceneJson, AbsentKeysKeepDefaults) {
 
 TEST(SceneJson, GraphAsInTheDocumentation) {
     const Json json = Json::parse(R"({"nodes": [
-        {"name": "Principled BSDF", "type": "ShaderNodeBsdfPrincipled", "params": {"distribution": "GGX", "flag": true, "n": 3},
+        {"name": "Principled BSDF", "type": "ShaderNodeBsdfPrincipled",
+         "params": {"distribution": "GGX", "flag": true, "n": 3},
          "inputs": {"Base Color": [0.1, 0.2, 0.3, 1], "Roughness": 0.5, "Shader": null, "On": true,
                     "Normal": {"node": 1, "socket": "Normal", "type": "VECTOR"}}},
         {"name": "G", "type": "ShaderNodeNewGeometry", "params": {}, "inputs": {}}],
@@ -136,19 +135,24 @@ TEST(SceneJson, ErrorsNameTheObjectAndTheKey) {
               "light: key \"kind\": \"laser\" is none of point, spot, sun, area");
     EXPECT_EQ(error_of<Settings>(R"({"samples": 1.5})"), "settings: key \"samples\": expected an integer, got number");
     EXPECT_EQ(error_of<Settings>(R"({"seed": -1})"), "settings: key \"seed\": -1 is out of range");
-    EXPECT_EQ(error_of<Settings>(R"({"samples": 5000000000})"), "settings: key \"samples\": 5000000000 is out of range");
+    EXPECT_EQ(error_of<Settings>(R"({"samples": 5000000000})"),
+              "settings: key \"samples\": 5000000000 is out of range");
     EXPECT_EQ(error_of<InstanceDesc>(R"({"visibility": 256})"), "instance: key \"visibility\": 256 is out of range");
     EXPECT_EQ(error_of<InstanceDesc>(R"({"name": "A", "holdout": 1})"),
               "instance \"A\": key \"holdout\": expected a boolean, got number");
     EXPECT_EQ(error_of<CameraDesc>("[]"), "camera: expected an object, got array");
-    EXPECT_EQ(error_of<CameraDesc>(R"({"view_plane": [1, 2]})"), "camera: key \"view_plane\": expected 4 values, got 2");
-    EXPECT_EQ(error_of<MaterialDesc>(R"({"name": "M", "graph": {"nodes": [{"name": "Noise", "inputs": {"Scale": [1,2,3,4,5]}}]}})"),
-              "material \"M\": key \"graph\": graph: key \"nodes\": item 0: node \"Noise\": key \"inputs\": \"Scale\": a socket has 1 "
+    EXPECT_EQ(error_of<CameraDesc>(R"({"view_plane": [1, 2]})"),
+              "camera: key \"view_plane\": expected 4 values, got 2");
+    EXPECT_EQ(error_of<MaterialDesc>(
+                  R"({"name": "M", "graph": {"nodes": [{"name": "Noise", "inputs": {"Scale": [1,2,3,4,5]}}]}})"),
+              "material \"M\": key \"graph\": graph: key \"nodes\": item 0: node \"Noise\": key \"inputs\": \"Scale\": "
+              "a socket has 1 "
               "to 4 numbers, not 5");
     EXPECT_NE(error_of<GraphDesc>(R"({"nodes": [{"inputs": {"A": {"node": 0}}}]})").find("keys node, socket and type"),
               std::string::npos);
     EXPECT_NE(error_of<GraphDesc>(R"({"surface": 3})").find("[node, socket]"), std::string::npos);
-    EXPECT_NE(error_of<GraphDesc>(R"({"nodes": [{"params": {"p": {"a": 1}}}]})").find("expected a number"), std::string::npos);
+    EXPECT_NE(error_of<GraphDesc>(R"({"nodes": [{"params": {"p": {"a": 1}}}]})").find("expected a number"),
+              std::string::npos);
 }
 
 TEST(SceneJson, BytesAndArraysInside) {

@@ -8,13 +8,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace cardioid::scene {
 namespace {
@@ -24,7 +24,9 @@ namespace fs = std::filesystem;
 class SceneFile : public testing::Test {
 protected:
     void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "cardioid-scene-XXXXXX").string();
+        // Thousands of damaged files are written: in memory where the system has it, since disks flush each of them.
+        const fs::path base = fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+        std::string pattern = (base / "cardioid-scene-XXXXXX").string();
         ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
         folder_ = pattern;
         path_ = folder_ / "scene.cardioid";
@@ -43,9 +45,7 @@ protected:
     std::string load_error() const {
         try {
             load_scene(path_);
-        } catch (const SceneError& error) {
-            return error.what();
-        }
+        } catch (const SceneError& error) { return error.what(); }
         return {};
     }
     std::size_t files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }

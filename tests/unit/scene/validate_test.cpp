@@ -225,7 +225,8 @@ TEST(Validate, LongChainsOfNodes) {
     SceneDesc scene = good_scene();
     GraphDesc& graph = scene.materials[0].graph;
     graph.nodes.assign(200000, {"Math", "ShaderNodeMath", {}, {}});
-    for (int i = 0; i + 1 < 200000; ++i) graph.nodes[static_cast<std::size_t>(i)].inputs["Value"] = {i + 1, "Value", "VALUE", {}};
+    for (int i = 0; i + 1 < 200000; ++i)
+        graph.nodes[static_cast<std::size_t>(i)].inputs["Value"] = {i + 1, "Value", "VALUE", {}};
     EXPECT_EQ(all(validate(scene)), "");
 }
 
@@ -299,7 +300,8 @@ TEST(Validate, SettingsErrors) {
     scene = good_scene();
     scene.settings.width = 0;
     expect_error(scene, {"0 × 32"});
-    for (const std::array<int, 4> crop : {std::array{0, 0, 65, 1}, {60, 0, 5, 5}, {-1, 0, 5, 5}, {0, 0, 5, 0}, {2147483647, 0, 5, 5}}) {
+    for (const std::array<int, 4> crop :
+         {std::array{0, 0, 65, 1}, {60, 0, 5, 5}, {-1, 0, 5, 5}, {0, 0, 5, 0}, {2147483647, 0, 5, 5}}) {
         scene = good_scene();
         scene.settings.crop = crop;
         expect_error(scene, {"render border"});
