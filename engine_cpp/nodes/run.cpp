@@ -15,6 +15,9 @@ constexpr OpFunction k_functions[] = {
 #undef CARDIOID_OP
 };
 
+/// Whole steps of W that cover the chunk.
+int lanes(const nodes::ShadingChunk& chunk) { return (chunk.n + W - 1) / W * W; }
+
 void clear(float* row, int end) {
     for (int i = 0; i < end; i += W) store(row + i, Float(0.0f));
 }
@@ -22,7 +25,7 @@ void clear(float* row, int end) {
 }  // namespace
 
 void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, float* registers) {
-    const Machine m{view, chunk, out, registers, (chunk.n + 15) & ~15};
+    const Machine m{view, chunk, out, registers, lanes(chunk)};
     for (int k = 0; k < view.instructions; ++k) {
         const nodes::Instruction& in = view.code[k];
         k_functions[static_cast<int>(in.op)](m, in);
@@ -30,7 +33,7 @@ void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, 
 }
 
 void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, nodes::Scratch& scratch) {
-    const int end = (chunk.n + 15) & ~15;
+    const int end = lanes(chunk);
     out.lobes = 0;
     for (int c = 0; c < 3; ++c) {
         clear(out.emission[c], end);

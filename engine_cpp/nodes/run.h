@@ -17,7 +17,7 @@ struct alignas(64) Scratch {
 
 namespace cardioid::CD_ISA_NS {
 
-/// Writes every lane up to chunk.n rounded up to 16: `lobes` and their rows, emission, transparency and holdout. The
+/// Writes every lane up to chunk.n rounded up to W: `lobes` and their rows, emission, transparency and holdout. The
 /// emission and transparency programs write their own rows; the others are zero.
 void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, nodes::Scratch& scratch);
 
