@@ -19,6 +19,11 @@ constexpr int k_smallest_cache_mb = 16;
 /// The reader's own cache serves tiled and very large files only; our tiles get the rest.
 int reader_share(int cache_mb) { return std::max(std::max(cache_mb, k_smallest_cache_mb) / 8, 4); }
 
+/// As scene/validate.h names an image, so that one problem is not reported twice in different words.
+std::string label_of(const std::string& name, std::size_t index) {
+    return name.empty() ? "image " + std::to_string(index) : "image \"" + name + '"';
+}
+
 /// Runs task(0…count-1) on all processors.
 template <class Task>
 void in_parallel(std::size_t count, Task task) {
@@ -59,7 +64,7 @@ struct ImageStore::Impl {
         read_ahead();
         for (const auto& picture : pictures)
             if (picture->non_finite() > 0)
-                warn("image \"" + picture->name() + "\" has " + std::to_string(picture->non_finite()) +
+                warn(picture->label() + " has " + std::to_string(picture->non_finite()) +
                      " pixels that are not finite; black is used");
     }
 
@@ -80,13 +85,14 @@ struct ImageStore::Impl {
         std::set<std::string> unknown;
         for (std::size_t i = 0; i < images.size(); ++i) {
             if (!sources[i]) {
-                warn("image \"" + images[i].name + "\" " + problems[i] + "; shown magenta");
+                warn(label_of(images[i].name, i) + ' ' + problems[i] + "; shown magenta");
                 pictures[i] = std::make_unique<Picture>();
                 continue;
             }
             ColorSpace space = spaces.find(images[i].colorspace, sources[i]->info().storage >= Storage::half);
             if (!space.known) unknown.insert(images[i].colorspace);
-            pictures[i] = std::make_unique<Picture>(images[i], std::move(sources[i]), std::move(space));
+            pictures[i] = std::make_unique<Picture>(images[i], label_of(images[i].name, i), std::move(sources[i]),
+                                                    std::move(space));
         }
         if (!unknown.empty()) warn_of_spaces(unknown);
     }
@@ -129,7 +135,7 @@ struct ImageStore::Impl {
 
     void load(Picture& picture, int tile) {
         if (const std::string problem = picture.load(tile, tiles); !problem.empty())
-            warn("image \"" + picture.name() + "\" " + problem + "; shown magenta");
+            warn(picture.label() + ' ' + problem + "; shown magenta");
     }
 
     Picture& picture(int image) const {

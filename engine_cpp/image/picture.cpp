@@ -41,8 +41,8 @@ Picture::Picture() {
     texture_.resize(1, 1);
 }
 
-Picture::Picture(const scene::ImageDesc& image, std::unique_ptr<Source> source, ColorSpace space)
-    : name_(image.name), source_(std::move(source)) {
+Picture::Picture(const scene::ImageDesc& image, std::string label, std::unique_ptr<Source> source, ColorSpace space)
+    : label_(std::move(label)), source_(std::move(source)) {
     const SourceInfo& info = source_->info();
     const bool data = space.transfer == Transfer::data, alpha_in_file = info.delivered() % 2 == 0;
     const bool separate = data || image.alpha_mode == AlphaMode::channel_packed || image.alpha_mode == AlphaMode::none;

@@ -18,12 +18,13 @@ public:
     /// Magenta.
     Picture();
     /// Throws SceneError if the source's picture cannot be used.
-    Picture(const scene::ImageDesc& image, std::unique_ptr<Source> source, ColorSpace space);
+    Picture(const scene::ImageDesc& image, std::string label, std::unique_ptr<Source> source, ColorSpace space);
 
     const Texture& texture() const { return texture_; }
     Texture& texture() { return texture_; }
     bool has_alpha() const { return has_alpha_; }
-    const std::string& name() const { return name_; }
+    /// `image "Name"`, for messages.
+    const std::string& label() const { return label_; }
     /// Can be loaded again, so that tiles may be dropped.
     bool repeatable() const { return source_ && source_->repeatable(); }
 
@@ -51,7 +52,7 @@ private:
     void load_magenta(int tile, TileCache& cache);
     void publish(int tile, TileMemory memory, TileCache& cache);
 
-    std::string name_;
+    std::string label_;
     std::unique_ptr<Source> source_;
     Conversion conversion_;
     Texture texture_;

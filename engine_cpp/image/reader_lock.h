@@ -16,18 +16,24 @@ public:
     class Reading {
     public:
         explicit Reading(ReaderLock& lock) : lock_(lock), stripe_(own_stripe()) { enter(); }
-        ~Reading() { leave(); }
+        ~Reading() {
+            if (inside_) leave();
+        }
         Reading(const Reading&) = delete;
         Reading& operator=(const Reading&) = delete;
         /// Between leave() and enter() a writer may run: what was read before is void.
-        void leave() { lock_.readers_[stripe_].count.fetch_sub(1, std::memory_order_release); }
+        void leave() {
+            inside_ = false;
+            lock_.readers_[stripe_].count.fetch_sub(1, std::memory_order_release);
+        }
         void enter() {
             std::atomic<int>& count = lock_.readers_[stripe_].count;
             // Sequentially consistent on both sides: either the writer sees this reader, or this reader sees the
             // writer.
             for (;;) {
                 count.fetch_add(1);
-                if (!lock_.writing_.load()) return;
+                inside_ = !lock_.writing_.load();
+                if (inside_) return;
                 count.fetch_sub(1);
                 lock_.writing_.wait(true);
             }
@@ -37,6 +43,7 @@ public:
         static std::size_t own_stripe() { return std::hash<std::thread::id>()(std::this_thread::get_id()) % k_stripes; }
         ReaderLock& lock_;
         std::size_t stripe_;
+        bool inside_ = false;
     };
 
     /// Runs `change` while nobody reads. The caller must not be reading.
