@@ -47,7 +47,7 @@ void TileCache::evict(std::int64_t target) {
 bool TileCache::evict_from(Texture& texture, std::int64_t target) {
     if (!texture.evictable) return true;
     for (int i = 0; i < texture.tile_count(); ++i) {
-        const std::byte* tile = texture.tiles[i].load(std::memory_order_relaxed);
+        const std::byte* tile = texture.tiles[i].load(std::memory_order_acquire);
         if (!tile || texture.used[i].exchange(false, std::memory_order_relaxed)) continue;
         texture.tiles[i].store(nullptr, std::memory_order_relaxed);
         TileDelete()(const_cast<std::byte*>(tile));

@@ -10,8 +10,8 @@
 namespace cardioid::scene {
 namespace {
 
-// Combined 4, Depth 1, Normal 3, D1 D2 D3 9, weight 1 floats; twice: the accumulating film and the published picture.
-constexpr std::int64_t k_film_bytes_per_pixel = 2 * 18 * 4;
+// The film sums 21 values a pixel (film/film.h); a picture has 23 at most, and one is published while the next is made.
+constexpr std::int64_t k_film_bytes_per_pixel = (21 + 2 * 23) * 4;
 // Embree's tree with its triangles copied into the leaves, 8 wide.
 constexpr std::int64_t k_tree_bytes_per_triangle = 120;
 constexpr std::int64_t k_bytes_per_instance = 700;
