@@ -14,7 +14,8 @@ inline constexpr int k_filter_steps = 1024;
 /// Offsets in pixels from the pixel's centre by quantile; one more entry than steps, for interpolation.
 using FilterTable = std::array<float, k_filter_steps + 1>;
 
-/// `width` is the full support in pixels; the box is always one pixel wide.
+/// `width` in pixels as in Cycles' settings: Blackman-Harris ends at ±width, the Gaussian at ±1.5 width; the box is always one
+/// pixel wide.
 FilterTable make_filter_table(scene::PixelFilter filter, float width);
 
 }  // namespace cardioid::film

@@ -129,12 +129,12 @@ Position pick_entry(const light::LightData& lights, LightReceiver at, Float u, M
 }  // namespace
 
 EmitterPick pick_emitter(const light::LightData& lights, LightReceiver at, Float u, Mask active) {
-    if (lights.entry_count == 0) return {Int(-1), 0.0f, mask_of(false)};
+    if (lights.entry_count == 0) return {Int(-1), 0.0f, u, mask_of(false)};
     Position pos = pick_entry(lights, at, u, active);
     for (;;) {
         const Int child = fetch(lights.nodes.child, record_index(pos.node, 1, pos.valid), 0);
         const Mask inner = pos.valid & (child >= Int(0));
-        if (none(inner)) return {select(pos.valid, Int(-1) - child, Int(-1)), pos.pmf, pos.valid};
+        if (none(inner)) return {select(pos.valid, Int(-1) - child, Int(-1)), pos.pmf, pos.u, pos.valid};
         ChildWeights w;
         weigh_children(lights, child, at, inner, w);
         const Turn turn = take_turn(w, light::k_tree_width, pos.u);

@@ -10,6 +10,7 @@ namespace cardioid::CD_ISA_NS {
 struct EmitterPick {
     Int emitter;
     Float pmf;
+    Float u;      ///< what the choice left of the random number: uniform in [0,1) again
     Mask valid;   ///< false: no emitter can light the receiver
 };
 

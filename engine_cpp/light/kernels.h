@@ -33,8 +33,9 @@ struct LightSample {
     Mask infinite;
 };
 
-/// u.x chooses the emitter, (u.y, u.z) the point on it.
-LightSample sample_light(const light::LightData& lights, LightReceiver at, Vec3 u, Mask active);
+/// u.x chooses the emitter; what the choice leaves of it and u.y choose the point, so that each emitter's share of a
+/// stratified sequence stays stratified.
+LightSample sample_light(const light::LightData& lights, LightReceiver at, Vec2 u, Mask active);
 
 /// Density with which sample_light at `at` would have made this hit on emissive triangle (instance, triangle):
 /// hit point and unit geometric normal of the triangle are given. 0 if it is not in the table.

@@ -28,9 +28,9 @@ void set_value(LightSample& s, Mask lanes, Spectrum radiance, Float pdf, Mask va
     s.valid &= ~lanes | (valid & (pdf > Float(0.0f)));
 }
 
-void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec3 u, Mask round, Mask lanes, LightSample& s) {
+void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask round, Mask lanes, LightSample& s) {
     const SeenArea area = see_area(lights, index, round, at.p, lanes);
-    const AreaPoint point = sample_area(area, u.y, u.z);
+    const AreaPoint point = sample_area(area, u.x, u.y);
     const Vec3 offset = area.u * point.x + area.v * point.y - area.normal * area.rect.z;
     const Float distance = sqrt(point.t2);
     set_direction(s, lanes, offset * (1.0f / max(distance, 1e-30f)), distance, at.p + offset, area.normal);
@@ -39,10 +39,10 @@ void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver 
     s.barycentric_v = select(lanes, (point.y - area.center_y) / area.half_v * 0.5f + 0.5f, s.barycentric_v);
 }
 
-void sample_ball_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec3 u, Mask disk, Int flags, Mask lanes,
+void sample_ball_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask disk, Int flags, Mask lanes,
                       LightSample& s) {
     const SeenBall ball = see_ball(lights, index, disk, flags, at.p);
-    const BallSample point = sample_ball(ball, at, u.y, u.z);
+    const BallSample point = sample_ball(ball, at, u.x, u.y);
     const Vec3 center = fetch3(lights.lamp, index, lamp::position);
     const Vec3 position = select(disk, at.p + point.wi * point.t, center + point.normal * fetch(lights.lamp, index, lamp::radius));
     const Float factor = select(ball.within, Float(1.0f), spot_attenuation(lights, index, flags, point.wi));
@@ -68,10 +68,10 @@ Float sun_factor(const LightData& lights, RecordIndex index, Int flags, Vec3 wi)
     return select((flags & Int(lamp::legacy_sun)) != Int(0), 1.0f / (c * c * c), Float(1.0f));
 }
 
-void sample_sun(const LightData& lights, RecordIndex index, Vec3 u, Int flags, Mask lanes, LightSample& s) {
+void sample_sun(const LightData& lights, RecordIndex index, Vec2 u, Int flags, Mask lanes, LightSample& s) {
     const Vec3 toward = fetch3(lights.lamp, index, lamp::position);
     const Float one_minus_cos = fetch(lights.lamp, index, lamp::sun_one_minus_cos);
-    const Vec3 wi = Frame(toward).to_world(sample_cone(one_minus_cos, u.y, u.z).local);
+    const Vec3 wi = Frame(toward).to_world(sample_cone(one_minus_cos, u.x, u.y).local);
     set_direction(s, lanes, wi, k_infinity, wi, -wi);
     const Spectrum radiance = fetch_rgb(lights.lamp, index, lamp::radiance) * sun_factor(lights, index, flags, wi);
     set_value(s, lanes, radiance, cone_pdf(one_minus_cos), lanes);
@@ -85,7 +85,7 @@ void sample_delta_sun(const LightData& lights, RecordIndex index, Mask lanes, Li
     s.infinite |= lanes;
 }
 
-void sample_lamp_kind(const LightData& lights, RecordIndex index, LightReceiver at, Vec3 u, EmitterKind kind, Int flags, Mask lanes,
+void sample_lamp_kind(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, EmitterKind kind, Int flags, Mask lanes,
                       LightSample& s) {
     switch (kind) {
         case EmitterKind::delta_point: sample_delta_point(lights, index, at, flags, lanes, s); return;
@@ -99,7 +99,7 @@ void sample_lamp_kind(const LightData& lights, RecordIndex index, LightReceiver 
     }
 }
 
-void sample_lamps(const LightData& lights, LightReceiver at, Vec3 u, Mask lanes, LightSample& s) {
+void sample_lamps(const LightData& lights, LightReceiver at, Vec2 u, Mask lanes, LightSample& s) {
     const RecordIndex index = record_index(s.emitter, light::k_lamp_floats, lanes);
     const RecordIndex numbers = record_index(s.emitter, light::k_lamp_ints, lanes);
     const Int kind = fetch(lights.lamp_int, numbers, lamp::kind);
@@ -117,12 +117,12 @@ void sample_lamps(const LightData& lights, LightReceiver at, Vec3 u, Mask lanes,
     }
 }
 
-void sample_triangles(const LightData& lights, LightReceiver at, Vec3 u, Mask lanes, LightSample& s) {
+void sample_triangles(const LightData& lights, LightReceiver at, Vec2 u, Mask lanes, LightSample& s) {
     const Int id = s.emitter - Int(lights.lamp_count);
     const RecordIndex index = record_index(id, light::k_triangle_floats, lanes);
     const RecordIndex numbers = record_index(id, light::k_triangle_ints, lanes);
-    const Float root = sqrt(u.y);
-    const Float second = root * (1.0f - u.z), third = root * u.z;
+    const Float root = sqrt(u.x);
+    const Float second = root * (1.0f - u.y), third = root * u.y;
     const Vec3 position = fetch3(lights.triangle, index, triangle::origin) + fetch3(lights.triangle, index, triangle::edge1) * second +
                           fetch3(lights.triangle, index, triangle::edge2) * third;
     const Vec3 normal = fetch3(lights.triangle, index, triangle::normal);
@@ -143,9 +143,9 @@ void sample_triangles(const LightData& lights, LightReceiver at, Vec3 u, Mask la
     s.barycentric_v = select(lanes, third, s.barycentric_v);
 }
 
-void sample_world(const LightData& lights, LightReceiver at, Vec3 u, Mask lanes, LightSample& s) {
+void sample_world(const LightData& lights, LightReceiver at, Vec2 u, Mask lanes, LightSample& s) {
     const light::EnvironmentData& env = lights.environment;
-    const EnvironmentSample sample = sample_environment(lights, at, u.y, u.z);
+    const EnvironmentSample sample = sample_environment(lights, at, u.x, u.y);
     const Vec3 zero{0.0f, 0.0f, 0.0f};
     set_direction(s, lanes, sample.wi, k_infinity, sample.wi, zero);
     set_value(s, lanes, {env.color[0], env.color[1], env.color[2]}, sample.pdf, lanes);
@@ -172,8 +172,9 @@ LightSample empty_sample(const EmitterPick& pick) {
 
 }  // namespace
 
-LightSample sample_light(const LightData& lights, LightReceiver at, Vec3 u, Mask active) {
+LightSample sample_light(const LightData& lights, LightReceiver at, Vec2 u, Mask active) {
     const EmitterPick pick = pick_emitter(lights, at, u.x, active);
+    u.x = pick.u;
     LightSample s = empty_sample(pick);
     const Mask lamps = pick.valid & (s.emitter < Int(lights.lamp_count));
     const Mask world = pick.valid & (s.emitter == Int(lights.environment.emitter));

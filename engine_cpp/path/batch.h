@@ -52,6 +52,7 @@ struct alignas(64) HitState {
 struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
+    bool own_normals = false;       ///< lobes may have normals of their own (bump, normal maps)
     bool all_sides = false;         ///< light from below the smooth normal's horizon counts: transmission, bump
     bsdf::Lobe* lobe = nullptr;     ///< `lobes` of them
     Row* pick = nullptr;            ///< probability of each lobe, `lobes` rows

@@ -9,7 +9,7 @@ namespace cardioid::CD_ISA_NS {
 
 enum CameraPair : int { pair_pixel = 0, pair_lens = 1, pair_time = 2, pairs_before_events = 4 };
 /// For every event of a path (bounce or transparent surface).
-enum EventPair : int { pair_bsdf = 0, pair_choice = 1, pair_light = 2, pair_pick = 3, pairs_per_event = 4 };
+enum EventPair : int { pair_bsdf = 0, pair_light = 1, pair_chance = 2, pairs_per_event = 3 };
 
 inline Int event_dimension(Int event, EventPair which) {
     return event * Int(pairs_per_event) + Int(pairs_before_events + static_cast<int>(which));

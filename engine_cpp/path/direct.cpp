@@ -28,6 +28,7 @@ BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3
     BsdfEval sum;
     for (int k = 0; k < chunk.lobes; ++k) {
         LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(chunk.lobe[k].kind)) e.f_cos = e.f_cos * bump_shadow(chunk, chunk.lobe[k], i, wi);
         if (visibility) {
             const Mask seen = (*visibility & lobe_visibility(chunk.lobe[k].kind, wi, ng)) != Int(0);
             e.f_cos = select(seen, e.f_cos, Spectrum(0.0f));
@@ -78,9 +79,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Int event = load(chunk.event + i), depth = load(chunk.depth + i);
     const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
     const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_light));
-    const Vec2 pick = sample_pair(seed, index, event_dimension(event, pair_pick));
     const LightReceiver at{p, chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n};
-    const LightSample light = sample_light(*scene.lights, at, {pick.x, u.x, u.y}, active);
+    const LightSample light = sample_light(*scene.lights, at, u, active);
     Mask lit = active & light.valid & (light.pdf > Float(0.0f));
     scratch.counters.light_samples += static_cast<std::uint64_t>(count(active));
     if (none(lit)) return;
@@ -114,7 +114,11 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const float clamp_direct = scene.settings.clamp_direct, clamp_indirect = scene.settings.clamp_indirect;
     const Vec3 origin = offset_origin(p, ng, light.wi, load(chunk.distance + i));
     const Float reach = max(max(abs(light.position.x), abs(light.position.y)), max(abs(light.position.z), light.distance));
-    const Float t_max = select(light.infinite, Float(1e30f), light.distance - reach * 1e-5f);
+    // Aimed anew from the moved origin: in the old direction the ray would end behind the emitter and be stopped by it.
+    const Vec3 to_light = light.position - origin;
+    const Float distance = length(to_light);
+    const Vec3 direction = select(light.infinite, light.wi, to_light * (1.0f / max(distance, 1e-37f)));
+    const Float t_max = select(light.infinite, Float(1e30f), distance - reach * 1e-5f);
     path::ShadowQueue& q = scratch.shadows;
     const auto queue = [&](Spectrum f_cos, Float pdf, Int after, Mask m) {
         const Float weight = select(light.delta, Float(1.0f), power_heuristic(light.pdf, pdf));
@@ -125,9 +129,9 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         append(q.origin[0], at_n, origin.x, shadowed);
         append(q.origin[1], at_n, origin.y, shadowed);
         append(q.origin[2], at_n, origin.z, shadowed);
-        append(q.direction[0], at_n, light.wi.x, shadowed);
-        append(q.direction[1], at_n, light.wi.y, shadowed);
-        append(q.direction[2], at_n, light.wi.z, shadowed);
+        append(q.direction[0], at_n, direction.x, shadowed);
+        append(q.direction[1], at_n, direction.y, shadowed);
+        append(q.direction[2], at_n, direction.z, shadowed);
         append(q.t_max, at_n, t_max, shadowed);
         append(q.radiance[0], at_n, c.r, shadowed);
         append(q.radiance[1], at_n, c.g, shadowed);
@@ -205,8 +209,7 @@ Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible) {
         const Mask black = active & ~not_black(passed);
         visible &= ~black;
         active &= ~black;
-        const Float reach = max(max(abs(point.position.x), abs(point.position.y)), max(abs(point.position.z), h.t));
-        ray.t_min = h.t + reach * 4e-6f;
+        ray.t_min = h.t + offset_step(point.position, h.t);
         active &= ray.t_min < ray.t_max;
     }
     visible &= ~active;

@@ -38,9 +38,13 @@ void Tracer::add_surface_emission(int material, const std::int32_t* list) {
     for (int i = 0; i < s.n; i += W) {
         const Mask lanes = first_lanes(s.n - i);
         const Spectrum e = load_rgb(scratch.surface.emission, i);
-        const Mask shines = lanes & ((e.r != Float(0.0f)) | (e.g != Float(0.0f)) | (e.b != Float(0.0f)));
-        if (none(shines)) continue;
+        Mask shines = lanes & ((e.r != Float(0.0f)) | (e.g != Float(0.0f)) | (e.b != Float(0.0f)));
         const Int ray = load(list + i);
+        if (scene.any_holdout) {
+            const Mask background = (gather(rays.flags, ray) & Int(path::k_flag_background)) != Int(0);
+            shines &= ~(background & (gather(scene.instances.holdout, load(s.instance + i)) != Int(0)));
+        }
+        if (none(shines)) continue;
         const Float pdf = gather(rays.pdf, ray);
         Float weight = 1.0f;
         const Mask weigh = shines & (pdf >= Float(0.0f));

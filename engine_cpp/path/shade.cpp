@@ -38,8 +38,10 @@ struct Choice {
     Int lobe;
 };
 
-/// Chooses a lobe by its albedo (or the way straight through) and samples it; f and pdf are those of all lobes of the same class.
-Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng, Vec2 u, Vec2 choice,
+/// Chooses a lobe by its albedo (or the way straight through) with u.x and samples it with what is left of u.x and u.y: each
+/// lobe's share of a stratified sequence stays stratified. f and pdf are those of all lobes of the same class.
+/// `side` chooses between reflection and refraction.
+Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng, Vec2 u, Float side,
                    float caustic_roughness, Mask active) {
     Choice c;
     c.wi = ng;
@@ -49,10 +51,12 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
     for (int k = 0; k < chunk.lobes; ++k) {
         const bsdf::Lobe& lobe = chunk.lobe[k];
         const Float p = load(chunk.pick[k] + i);
-        const Mask here = active & (choice.x >= sum) & (choice.x < sum + p);
+        const Mask here = active & (u.x >= sum) & (u.x < sum + p);
+        const Float rest = clamp((u.x - sum) / max(p, 1e-30f), 0.0f, 0.99999994f);
         sum += p;
         if (none(here)) continue;
-        const LobeSample s = sample_lobe(lobe, i, wo, ng, {u.x, u.y, choice.y}, here);
+        LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind)) s.f_cos = s.f_cos * bump_shadow(chunk, lobe, i, s.wi);
         const Mask ok = here & s.valid;
         c.wi = select(ok, s.wi, c.wi);
         c.f = select(ok, s.f_cos, c.f);
@@ -69,7 +73,7 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
         c.specular |= ok & is_specular(lobe, i, caustic_roughness);
         c.lobe = select(ok, Int(k), c.lobe);
     }
-    c.through = active & (choice.x >= sum) & (choice.x < sum + transparency_pick);
+    c.through = active & (u.x >= sum) & (u.x < sum + transparency_pick);
     if (chunk.lobes < 2) return c;
     const Mask mix = c.valid & ~c.delta;
     if (none(mix)) return c;
@@ -78,7 +82,8 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
         const Mask same_class = ~(is_specular(lobe, i, caustic_roughness) ^ c.specular);
         const Mask here = mix & same_class & (c.lobe != Int(k));
         if (none(here)) continue;
-        const LobeEval e = eval_lobe(lobe, i, wo, c.wi, ng);
+        LobeEval e = eval_lobe(lobe, i, wo, c.wi, ng);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind)) e.f_cos = e.f_cos * bump_shadow(chunk, lobe, i, c.wi);
         c.f = select(here, c.f + e.f_cos, c.f);
         c.pdf = select(here, c.pdf + e.pdf * load(chunk.pick[k] + i), c.pdf);
     }
@@ -205,7 +210,7 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     if (m.info.has_emission) add_surface_emission(material, list);
     chunk->n = n;
     chunk->lobes = out.lobes;
-    chunk->all_sides = m.info.own_normals;
+    chunk->own_normals = chunk->all_sides = m.info.own_normals;
     for (int k = 0; k < out.lobes; ++k) chunk->all_sides |= bsdf::sends_light_through(out.lobe[k].kind);
     scatter(*chunk, list);
     if (scratch.log) log_vertices(*chunk, material);
@@ -258,9 +263,10 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Float t = load(s.ray_length + i);
         const Float min_pdf = gather(rays.min_pdf, ray);
 
-        Mask held = mask_of(false);
-        if (scene.any_holdout) held = gather(scene.instances.holdout, load(s.instance + i)) != Int(0);
+        // A holdout cuts its hole into the view alone: bounced light meets the object itself, as in Cycles.
         const Mask background = (flags & Int(path::k_flag_background)) != Int(0);
+        Mask held = mask_of(false);
+        if (scene.any_holdout) held = background & (gather(scene.instances.holdout, load(s.instance + i)) != Int(0));
         const Float holdout = select(held, Float(1.0f), load(out.holdout + i));
         if (any(lanes & background & (holdout > Float(0.0f)))) {
             const Float alpha = gather(result.alpha, path) - average(throughput) * holdout;
@@ -306,8 +312,8 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
 
         const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
         const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));
-        const Vec2 choice = sample_pair(seed, index, event_dimension(event, pair_choice));
-        Choice c = sample_bsdf(chunk, albedo_through * inv_total, i, wo, ng, u, choice, settings.caustic_roughness, alive);
+        const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
+        Choice c = sample_bsdf(chunk, albedo_through * inv_total, i, wo, ng, u, chance.y, settings.caustic_roughness, alive);
         c.valid &= scatters & (c.pdf > Float(0.0f));
 
         Spectrum carried = throughput * c.f * (1.0f / max(c.pdf, 1e-37f));
@@ -315,8 +321,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         // Roulette from the third vertex.
         const Mask gamble = c.valid & (byte_of(path_next.depth, 0) > Int(2));
         const Float survive = select(gamble, min(max_component(carried), 0.95f), Float(1.0f));
-        const Vec2 pick = sample_pair(seed, index, event_dimension(event, pair_pick));
-        c.valid &= pick.y < survive;
+        c.valid &= chance.x < survive;
         carried = carried * (1.0f / max(survive, 1e-37f));
 
         const Mask passes = c.through & (transparent < Int(settings.max_transparent_bounces));
@@ -325,7 +330,6 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         if (none(go)) continue;
         const Vec3 origin = select(passes, load3(rays.origin, ray), offset_origin(p, ng, c.wi, t));
         const Vec3 direction = select(passes, -wo, c.wi);
-        const Float step = max(max(abs(p.x), abs(p.y)), max(abs(p.z), t)) * 4e-6f;
         const Spectrum weight = select(passes, passed, carried);
         const Float width = gather(rays.width, ray), spread = gather(rays.spread, ray);
         const int k = to.n;
@@ -335,11 +339,13 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         append(to.direction[0], k, direction.x, go);
         append(to.direction[1], k, direction.y, go);
         append(to.direction[2], k, direction.z, go);
-        append(to.t_min, k, select(passes, t + step, Float(0.0f)), go);
+        append(to.t_min, k, select(passes, t + offset_step(p, t), Float(0.0f)), go);
         append(to.throughput[0], k, weight.r, go);
         append(to.throughput[1], k, weight.g, go);
         append(to.throughput[2], k, weight.b, go);
-        append(to.pdf, k, select(passes, gather(rays.pdf, ray), select(c.delta, Float(-1.0f), c.pdf)), go);
+        // Rough specular lobes after a D are not connected to lamps, so that their hits count in full.
+        const Mask unconnected = c.delta | (c.specular & (state_of(flags) != Int(static_cast<int>(path::State::specular))));
+        append(to.pdf, k, select(passes, gather(rays.pdf, ray), select(unconnected, Float(-1.0f), c.pdf)), go);
         const Vec3 from = chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n;
         const Vec3 from_normal = select(passes, load3(rays.from_normal, ray), from);
         append(to.from_normal[0], k, from_normal.x, go);

@@ -49,10 +49,6 @@ inline Int sobol_second(Int x) {
     return x;
 }
 
-struct Vec2 {
-    Float x, y;
-};
-
 /// The pair of dimensions `dimension` of a sample in the sequence of `pixel_seed`. `reversed_index` is reverse_bits(sample
 /// number): the order of samples is shuffled for every pair by an Owen scramble from the number's highest bit down, which keeps
 /// each aligned block of 2^k samples a (0,2) net.

@@ -6,6 +6,10 @@
 
 namespace cardioid::CD_ISA_NS {
 
+struct Vec2 {
+    Float x, y;
+};
+
 struct Vec3 {
     Float x, y, z;
     friend Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

@@ -100,11 +100,13 @@ inline void triangle_edges(const trace::SceneView& scene, Int instance, Int tria
     }
 }
 
-/// Start of a ray that leaves p on the side of `ng`: the step grows with the position and the distance travelled, which
-/// carry the rounding error; it never depends on the size of the scene.
+/// How far off the surface rays start: grows with the position and the distance travelled, which carry the rounding error;
+/// never depends on the size of the scene.
+inline Float offset_step(Vec3 p, Float t) { return max(max(abs(p.x), abs(p.y)), max(abs(p.z), t)) * 4e-6f + 1e-12f; }
+
+/// Start of a ray that leaves p on the side of `ng`.
 inline Vec3 offset_origin(Vec3 p, Vec3 ng, Vec3 direction, Float t) {
-    const Float scale = max(max(abs(p.x), abs(p.y)), max(abs(p.z), t)) * 4e-6f + 1e-12f;
-    return p + ng * copysign(scale, dot(ng, direction));
+    return p + ng * copysign(offset_step(p, t), dot(ng, direction));
 }
 
 }  // namespace cardioid::CD_ISA_NS

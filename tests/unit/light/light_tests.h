@@ -67,6 +67,11 @@ private:
     std::mt19937 engine_;
 };
 
+/// Three numbers are drawn for every sample, two are used.
+inline LightSample sample_light(const light::LightData& lights, LightReceiver at, Vec3 u, Mask active) {
+    return CD_ISA_NS::sample_light(lights, at, Vec2{u.x, u.y}, active);
+}
+
 template <class Visit>
 void for_each_draw(const LightTable& table, const Receiver& at, int n, std::uint32_t seed, Visit visit) {
     Uniform uniform(seed);

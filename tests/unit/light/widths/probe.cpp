@@ -13,7 +13,7 @@ void probe_light(const light::LightData& lights, int n, const float* in, float* 
         }
         const LightReceiver at{{load(rows[0]), load(rows[1]), load(rows[2])}, {load(rows[3]), load(rows[4]), load(rows[5])}};
         const Mask active = first_lanes(n - k);
-        const LightSample s = sample_light(lights, at, {load(rows[6]), load(rows[7]), load(rows[8])}, active);
+        const LightSample s = sample_light(lights, at, {load(rows[6]), load(rows[7])}, active);
         const Float results[10] = {s.wi.x, s.wi.y, s.wi.z, s.distance, s.radiance.r, s.radiance.g, s.radiance.b, s.pdf,
                                    select(s.valid, Float(1.0f), Float(0.0f)), to_float(s.emitter)};
         for (int f = 0; f < 10; ++f) {
