@@ -53,9 +53,11 @@ TEST(Frames, WithATangent) {
     for (std::size_t k = 0; k + 1 < all.size(); ++k) {
         const Vec3 n = lanes(all[k]), tangent = lanes(all[k + 1]);
         const Frame f(n, tangent);
-        ASSERT_LT(defect(f), 4e-5f) << k;
         const Vec3 in_plane = tangent - n * dot(n, tangent);
+        // The part of the tangent in the plane carries the rounding error of the whole.
+        ASSERT_LT(defect(f), 4e-6f + 2e-7f / std::max(length(in_plane)[0], 1e-6f)) << k;
         if (length(in_plane)[0] < 1e-3f) continue;
+        ASSERT_LT(defect(f), 2e-4f) << k;
         ASSERT_GT(dot(f.s, normalize(in_plane))[0], 0.9999f) << k;
     }
     // A tangent along the normal leaves nothing to follow.
