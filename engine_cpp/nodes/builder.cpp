@@ -47,7 +47,8 @@ Results Builder::fold(Op op, std::span<const Ref> args, std::uint32_t imm, std::
     std::array<float, 32 * k_constant_stride> rows{};
     std::array<std::uint16_t, 32> operands{};
     for (std::size_t k = 0; k < args.size(); ++k) {
-        std::fill_n(rows.begin() + static_cast<std::ptrdiff_t>(k * k_constant_stride), k_constant_stride, constants_[args[k].index]);
+        std::fill_n(rows.begin() + static_cast<std::ptrdiff_t>(k * k_constant_stride), k_constant_stride,
+                    constants_[args[k].index]);
         operands[k] = static_cast<std::uint16_t>(operand_constant | k);
     }
     const Instruction in{op, 0, 0, imm, data};
@@ -68,7 +69,8 @@ Results Builder::emit_all(Op op, std::span<const Ref> args, std::uint32_t imm, s
         for (auto it = begin; it != end; ++it) {
             const IrInstruction& other = code_[it->second];
             const auto same = this->args(other);
-            if (other.op == op && other.imm == imm && other.data == data && std::equal(same.begin(), same.end(), args.begin(), args.end()))
+            if (other.op == op && other.imm == imm && other.data == data &&
+                std::equal(same.begin(), same.end(), args.begin(), args.end()))
                 return results_of(it->second);
         }
     }

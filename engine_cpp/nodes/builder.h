@@ -20,9 +20,11 @@ struct Ref {
     enum class Kind : std::uint8_t { constant, chunk, value };
     Kind kind = Kind::constant;
     std::uint8_t component = 0;
-    std::uint32_t index = 0;      ///< of the constant, the chunk's row, or the instruction
+    std::uint32_t index = 0;  ///< of the constant, the chunk's row, or the instruction
     bool operator==(const Ref&) const = default;
-    std::uint64_t key() const { return static_cast<std::uint64_t>(kind) << 40 | static_cast<std::uint64_t>(component) << 32 | index; }
+    std::uint64_t key() const {
+        return static_cast<std::uint64_t>(kind) << 40 | static_cast<std::uint64_t>(component) << 32 | index;
+    }
 };
 struct Ref3 {
     Ref x, y, z;
@@ -34,8 +36,18 @@ using Results = std::array<Ref, k_max_results>;
 
 /// Rows of the ShadingChunk that operands may name, in its order.
 enum class ChunkRow : std::uint32_t {
-    position = 0, normal_geometric = 3, normal = 6, wo = 9, barycentric_u = 12, barycentric_v = 13, dp_du = 14, dp_dv = 17,
-    footprint = 20, ray_length = 21, time = 22, backfacing = 23,
+    position = 0,
+    normal_geometric = 3,
+    normal = 6,
+    wo = 9,
+    barycentric_u = 12,
+    barycentric_v = 13,
+    dp_du = 14,
+    dp_dv = 17,
+    footprint = 20,
+    ray_length = 21,
+    time = 22,
+    backfacing = 23,
 };
 
 struct IrInstruction {
@@ -53,7 +65,9 @@ public:
 
     Ref constant(float value);
     Ref3 constant(Float3 v) { return {constant(v.x), constant(v.y), constant(v.z)}; }
-    Ref chunk(ChunkRow row, std::uint32_t k = 0) const { return {Ref::Kind::chunk, 0, static_cast<std::uint32_t>(row) + k}; }
+    Ref chunk(ChunkRow row, std::uint32_t k = 0) const {
+        return {Ref::Kind::chunk, 0, static_cast<std::uint32_t>(row) + k};
+    }
     Ref3 chunk3(ChunkRow row) const { return {chunk(row, 0), chunk(row, 1), chunk(row, 2)}; }
 
     /// All results of an instruction (as many as op_info says).
@@ -92,17 +106,37 @@ public:
 
     // The same by component, and true vector operations.
     template <class F>
-    static Ref3 each(Ref3 a, F f) { return {f(a.x), f(a.y), f(a.z)}; }
+    static Ref3 each(Ref3 a, F f) {
+        return {f(a.x), f(a.y), f(a.z)};
+    }
     template <class F>
-    static Ref3 each(Ref3 a, Ref3 b, F f) { return {f(a.x, b.x), f(a.y, b.y), f(a.z, b.z)}; }
-    Ref3 add(Ref3 a, Ref3 b) { return each(a, b, [this](Ref p, Ref q) { return add(p, q); }); }
-    Ref3 subtract(Ref3 a, Ref3 b) { return each(a, b, [this](Ref p, Ref q) { return subtract(p, q); }); }
-    Ref3 multiply(Ref3 a, Ref3 b) { return each(a, b, [this](Ref p, Ref q) { return multiply(p, q); }); }
-    Ref3 multiply(Ref3 a, Ref s) { return each(a, [this, s](Ref p) { return multiply(p, s); }); }
-    Ref3 mix(Ref3 a, Ref3 b, Ref t) { return each(a, b, [this, t](Ref p, Ref q) { return mix(p, q, t); }); }
-    Ref3 saturate(Ref3 a) { return each(a, [this](Ref p) { return saturate(p); }); }
-    Ref3 maximum(Ref3 a, Ref b) { return each(a, [this, b](Ref p) { return maximum(p, b); }); }
-    Ref3 minimum(Ref3 a, Ref b) { return each(a, [this, b](Ref p) { return minimum(p, b); }); }
+    static Ref3 each(Ref3 a, Ref3 b, F f) {
+        return {f(a.x, b.x), f(a.y, b.y), f(a.z, b.z)};
+    }
+    Ref3 add(Ref3 a, Ref3 b) {
+        return each(a, b, [this](Ref p, Ref q) { return add(p, q); });
+    }
+    Ref3 subtract(Ref3 a, Ref3 b) {
+        return each(a, b, [this](Ref p, Ref q) { return subtract(p, q); });
+    }
+    Ref3 multiply(Ref3 a, Ref3 b) {
+        return each(a, b, [this](Ref p, Ref q) { return multiply(p, q); });
+    }
+    Ref3 multiply(Ref3 a, Ref s) {
+        return each(a, [this, s](Ref p) { return multiply(p, s); });
+    }
+    Ref3 mix(Ref3 a, Ref3 b, Ref t) {
+        return each(a, b, [this, t](Ref p, Ref q) { return mix(p, q, t); });
+    }
+    Ref3 saturate(Ref3 a) {
+        return each(a, [this](Ref p) { return saturate(p); });
+    }
+    Ref3 maximum(Ref3 a, Ref b) {
+        return each(a, [this, b](Ref p) { return maximum(p, b); });
+    }
+    Ref3 minimum(Ref3 a, Ref b) {
+        return each(a, [this, b](Ref p) { return minimum(p, b); });
+    }
     Ref3 broadcast(Ref a) const { return {a, a, a}; }
     Ref dot(Ref3 a, Ref3 b) { return emit(Op::dot, {a.x, a.y, a.z, b.x, b.y, b.z}); }
     Ref3 cross(Ref3 a, Ref3 b) { return emit3(Op::cross, {a.x, a.y, a.z, b.x, b.y, b.z}); }
@@ -132,8 +166,8 @@ private:
     std::vector<Ref> args_;
     std::vector<float> constants_;
     std::vector<float> data_;
-    std::unordered_map<std::uint32_t, std::uint32_t> constant_index_;   ///< by bit pattern
-    std::unordered_multimap<std::uint64_t, std::uint32_t> merged_;      ///< instructions by hash
+    std::unordered_map<std::uint32_t, std::uint32_t> constant_index_;  ///< by bit pattern
+    std::unordered_multimap<std::uint64_t, std::uint32_t> merged_;     ///< instructions by hash
     std::unique_ptr<Folder> folder_;
 };
 

@@ -22,9 +22,12 @@ Color to_hsv(const Color& c) {
     const float high = std::max({c[0], c[1], c[2]}), low = std::min({c[0], c[1], c[2]}), d = high - low;
     if (high == 0 || d == 0) return {0, 0, high, c[3]};
     float h = 0;
-    if (c[0] == high) h = (c[1] - c[2]) / d;
-    else if (c[1] == high) h = 2 + (c[2] - c[0]) / d;
-    else h = 4 + (c[0] - c[1]) / d;
+    if (c[0] == high)
+        h = (c[1] - c[2]) / d;
+    else if (c[1] == high)
+        h = 2 + (c[2] - c[0]) / d;
+    else
+        h = 4 + (c[0] - c[1]) / d;
     return {h < 0 ? h / 6 + 1 : h / 6, d / high, high, c[3]};
 }
 
@@ -87,7 +90,8 @@ Color mix(const Color& a, const Color& b, float t, const std::string& mode, cons
 std::array<float, 4> cardinal_weights(float t) {
     constexpr float k = 0.71f;
     const float t2 = t * t, t3 = t2 * t;
-    return {-k * t3 + 2 * k * t2 - k * t, (2 - k) * t3 + (k - 3) * t2 + 1, (k - 2) * t3 + (3 - 2 * k) * t2 + k * t, k * t3 - k * t2};
+    return {-k * t3 + 2 * k * t2 - k * t, (2 - k) * t3 + (k - 3) * t2 + 1, (k - 2) * t3 + (3 - 2 * k) * t2 + k * t,
+            k * t3 - k * t2};
 }
 
 std::array<float, 4> bspline_weights(float t) {
@@ -123,10 +127,12 @@ private:
     Color spline_at(std::size_t next, const Stop& left, const Stop& right, float t) const {
         const Color& before = next >= 2 ? stops_[next - 2].color : left.color;
         const Color& after = next + 1 < stops_.size() ? stops_[next + 1].color : right.color;
-        const auto w = interpolation_ == "CARDINAL" ? cardinal_weights(std::clamp(t, 0.0f, 1.0f)) : bspline_weights(std::clamp(t, 0.0f, 1.0f));
+        const auto w = interpolation_ == "CARDINAL" ? cardinal_weights(std::clamp(t, 0.0f, 1.0f))
+                                                    : bspline_weights(std::clamp(t, 0.0f, 1.0f));
         Color r;
         for (std::size_t k = 0; k < 4; ++k)
-            r[k] = std::clamp(w[0] * before[k] + w[1] * left.color[k] + w[2] * right.color[k] + w[3] * after[k], 0.0f, 1.0f);
+            r[k] = std::clamp(w[0] * before[k] + w[1] * left.color[k] + w[2] * right.color[k] + w[3] * after[k], 0.0f,
+                              1.0f);
         return r;
     }
 
@@ -136,8 +142,8 @@ private:
 
 }  // namespace
 
-std::vector<float> ramp_table(const std::vector<double>& values, const std::string& interpolation, const std::string& color_mode,
-                              const std::string& hue) {
+std::vector<float> ramp_table(const std::vector<double>& values, const std::string& interpolation,
+                              const std::string& color_mode, const std::string& hue) {
     std::vector<Stop> stops;
     for (std::size_t k = 0; k + 5 <= values.size(); k += 5) {
         const auto at = [&](std::size_t i) { return static_cast<float>(values[k + i]); };

@@ -36,7 +36,8 @@ bool reads_triangle(const Program& p) {
         const int row = arg & k_operand_index;
         return row >= static_cast<int>(ChunkRow::barycentric_u) && row < static_cast<int>(ChunkRow::footprint);
     };
-    return uses(p, Op::attribute) || uses(p, Op::uv_tangent) || uses(p, Op::barycentric_step) || std::any_of(p.args.begin(), p.args.end(), frame);
+    return uses(p, Op::attribute) || uses(p, Op::uv_tangent) || uses(p, Op::barycentric_step) ||
+           std::any_of(p.args.begin(), p.args.end(), frame);
 }
 
 /// Sum of the operands of every `op`, when it is all that the program holds and is constant.
@@ -78,7 +79,8 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.has_bump = uses(surface, Op::surface_step);
     info.own_normals = makes_normals(surface);
     info.needs_triangle_frame = reads_triangle(surface);
-    info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::transform) || uses(surface, Op::uv_tangent);
+    info.needs_instance =
+        uses(surface, Op::instance_value) || uses(surface, Op::transform) || uses(surface, Op::uv_tangent);
     for (const Instruction& in : surface.code)
         info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
                       in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;
@@ -97,7 +99,8 @@ CompiledGraph compile(const scene::GraphDesc& graph, const CompileContext& conte
     for (int k = 0; k < k_purposes; ++k)
         out.program[k] = emit_program(compiler.builder(), static_cast<Purpose>(k), context.images, too_large);
     if (too_large) {
-        warnings.add(context.name + "/too large", "The shader of '" + context.name + "' is too large; it is plain instead");
+        warnings.add(context.name + "/too large",
+                     "The shader of '" + context.name + "' is too large; it is plain instead");
         return compile(plain_graph(context), context, warnings);
     }
     out.info = describe(out);

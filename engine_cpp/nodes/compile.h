@@ -21,16 +21,16 @@ inline constexpr const char* k_active_uv = "#active_uv";
 inline constexpr const char* k_active_color = "#active_color";
 
 struct CompileContext {
-    std::string name;                                   ///< of the material, world or lamp, for messages
+    std::string name;  ///< of the material, world or lamp, for messages
     GraphKind kind = GraphKind::material;
-    std::vector<std::string>* attribute_names = nullptr;///< name id = index; names that are missing are appended
-    const image::ImageStore* images = nullptr;          ///< may be null: images are then magenta
-    Float3 fallback_color{0.8f, 0.8f, 0.8f};            ///< an empty graph is Diffuse, Background or Emission of this colour
-    bool optimise = true;                               ///< false: no folding, merging or dead-code removal (tests)
+    std::vector<std::string>* attribute_names = nullptr;  ///< name id = index; names that are missing are appended
+    const image::ImageStore* images = nullptr;            ///< may be null: images are then magenta
+    Float3 fallback_color{0.8f, 0.8f, 0.8f};  ///< an empty graph is Diffuse, Background or Emission of this colour
+    bool optimise = true;                     ///< false: no folding, merging or dead-code removal (tests)
 };
 
 struct CompiledGraph {
-    Program program[k_purposes];                        ///< by Purpose
+    Program program[k_purposes];  ///< by Purpose
     ProgramInfo info;
     const Program& of(Purpose p) const { return program[static_cast<int>(p)]; }
 };

@@ -45,8 +45,12 @@ private:
 class Emitter {
 public:
     Emitter(const Builder& builder, Purpose purpose)
-        : builder_(builder), live_(live_instructions(builder, purpose)), purpose_(purpose),
-          last_use_(live_.size(), -1), read_(live_.size(), false), register_(live_.size(), -1),
+        : builder_(builder),
+          live_(live_instructions(builder, purpose)),
+          purpose_(purpose),
+          last_use_(live_.size(), -1),
+          read_(live_.size(), false),
+          register_(live_.size(), -1),
           constant_index_(builder.constants().size(), -1) {}
 
     bool run(Program& out) {
@@ -72,7 +76,8 @@ private:
 
     std::uint16_t operand(Program& out, Ref r) {
         if (r.kind == Ref::Kind::chunk) return static_cast<std::uint16_t>(operand_chunk | r.index);
-        if (r.kind == Ref::Kind::value) return static_cast<std::uint16_t>(operand_register | (register_[r.index] + r.component));
+        if (r.kind == Ref::Kind::value)
+            return static_cast<std::uint16_t>(operand_register | (register_[r.index] + r.component));
         int& slot = constant_index_[r.index];
         if (slot < 0) {
             slot = static_cast<int>(out.constants.size()) / k_constant_stride;

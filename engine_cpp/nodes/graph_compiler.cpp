@@ -20,8 +20,13 @@ const char* kind_name(GraphKind kind) {
 }  // namespace
 
 GraphCompiler::GraphCompiler(const scene::GraphDesc& graph, const CompileContext& context, Warnings& warnings)
-    : graph_(graph), context_(context), warnings_(warnings), builder_(context.optimise), types_(graph.nodes.size()),
-      weight_(graph.nodes.size()), reached_(graph.nodes.size(), false) {
+    : graph_(graph),
+      context_(context),
+      warnings_(warnings),
+      builder_(context.optimise),
+      types_(graph.nodes.size()),
+      weight_(graph.nodes.size()),
+      reached_(graph.nodes.size(), false) {
     for (std::size_t k = 0; k < graph_.nodes.size(); ++k) types_[k] = find_node_type(graph_.nodes[k].type);
     normal_ = builder_.chunk3(ChunkRow::normal);
     cut_bad_links();
@@ -29,7 +34,8 @@ GraphCompiler::GraphCompiler(const scene::GraphDesc& graph, const CompileContext
 }
 
 std::string GraphCompiler::place(int node) const {
-    return "Node '" + graph_.nodes[static_cast<std::size_t>(node)].name + "' in " + kind_name(context_.kind) + " '" + context_.name + "'";
+    return "Node '" + graph_.nodes[static_cast<std::size_t>(node)].name + "' in " + kind_name(context_.kind) + " '" +
+           context_.name + "'";
 }
 
 void GraphCompiler::cut_bad_links() {
@@ -41,7 +47,8 @@ void GraphCompiler::cut_bad_links() {
                 used_.emplace(input.node, input.socket);
                 continue;
             }
-            warn(context_.name + "/missing node", place(k) + ": the link to '" + id + "' comes from a node that does not exist");
+            warn(context_.name + "/missing node",
+                 place(k) + ": the link to '" + id + "' comes from a node that does not exist");
             input.node = -1;
         }
     }
@@ -89,7 +96,8 @@ void GraphCompiler::cut_loops() {
 void GraphCompiler::run() {
     const scene::OutputDesc& surface = graph_.surface;
     if (graph_.volume.node >= 0)
-        warn("volume", std::string("Volume shaders are not supported yet (") + kind_name(context_.kind) + " '" + context_.name + "')");
+        warn("volume", std::string("Volume shaders are not supported yet (") + kind_name(context_.kind) + " '" +
+                           context_.name + "')");
     if (surface.node < 0) return;
     apply_displacement();
     if (is_closure(surface.node)) {
@@ -115,11 +123,13 @@ void GraphCompiler::apply_displacement() {
         evaluate(out.node, shift);
         const Value* v = output(out.node, out.socket, shift);
         if (v == nullptr) return;
-        height[static_cast<int>(shift)] = builder_.dot(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v, normal_);
+        height[static_cast<int>(shift)] =
+            builder_.dot(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v, normal_);
     }
     NodeContext c(*this, out.node, Shift::none, nullptr);
     const Ref one = builder_.constant(1);
-    normal_ = bumped(c, normal_, builder_.subtract(height[1], height[0]), builder_.subtract(height[2], height[0]), one, one);
+    normal_ =
+        bumped(c, normal_, builder_.subtract(height[1], height[0]), builder_.subtract(height[2], height[0]), one, one);
     // What was computed so far saw the plain normal.
     outputs_.clear();
 }
@@ -168,8 +178,8 @@ void GraphCompiler::run_closures(int root) {
 
 void GraphCompiler::name_unknown(int node) {
     const scene::NodeDesc& n = graph_.nodes[static_cast<std::size_t>(node)];
-    warn("type " + n.type, "Node '" + n.name + "' (" + n.type + ") in " + kind_name(context_.kind) + " '" + context_.name +
-                               "' is not supported; it uses its default");
+    warn("type " + n.type, "Node '" + n.name + "' (" + n.type + ") in " + kind_name(context_.kind) + " '" +
+                               context_.name + "' is not supported; it uses its default");
 }
 
 void GraphCompiler::unknown_surface(int node, Ref weight) {
@@ -177,7 +187,8 @@ void GraphCompiler::unknown_surface(int node, Ref weight) {
     if (graph_.nodes[static_cast<std::size_t>(node)].type.find("Tex") != std::string::npos) return;
     NodeContext c(*this, node, Shift::none, nullptr);
     const Ref grey = builder_.multiply(builder_.constant(0.8f), weight);
-    c.simple_lobe(bsdf::LobeKind::diffuse, builder_.broadcast(grey), c.normal(), builder_.constant(0), false, builder_.broadcast(grey));
+    c.simple_lobe(bsdf::LobeKind::diffuse, builder_.broadcast(grey), c.normal(), builder_.constant(0), false,
+                  builder_.broadcast(grey));
 }
 
 void GraphCompiler::evaluate_inputs(int node, Shift shift) {
@@ -209,7 +220,8 @@ void GraphCompiler::evaluate(int root, Shift shift) {
         if (!f.inputs_done) {
             stack.back().inputs_done = true;
             for (const auto& [id, input] : graph_.nodes[static_cast<std::size_t>(f.node)].inputs)
-                if (input.linked() && !is_closure(input.node) && !outputs_.contains(key(input.node))) stack.push_back({input.node, false});
+                if (input.linked() && !is_closure(input.node) && !outputs_.contains(key(input.node)))
+                    stack.push_back({input.node, false});
             continue;
         }
         stack.pop_back();

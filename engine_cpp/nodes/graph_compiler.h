@@ -21,7 +21,7 @@ enum class Shift : std::uint8_t { none, x, y };
 struct Value {
     enum class Type : std::uint8_t { number, vector, color };
     Type type = Type::number;
-    Ref3 v;                     ///< a number is v.x
+    Ref3 v;  ///< a number is v.x
 };
 using Outputs = std::map<std::string, Value>;
 
@@ -62,10 +62,10 @@ private:
     Warnings& warnings_;
     Builder builder_;
     std::vector<const NodeType*> types_;
-    std::unordered_map<int, Outputs> outputs_;      ///< by node * 3 + shift
-    std::vector<Ref> weight_;                       ///< of closures, summed over all ways to reach them
+    std::unordered_map<int, Outputs> outputs_;  ///< by node * 3 + shift
+    std::vector<Ref> weight_;                   ///< of closures, summed over all ways to reach them
     std::vector<bool> reached_;
-    std::set<std::pair<int, std::string>> used_;    ///< outputs that something is linked to
+    std::set<std::pair<int, std::string>> used_;  ///< outputs that something is linked to
     Ref3 normal_;
     int bump_depth_ = 0;
     int lobes_ = 0;

@@ -19,7 +19,7 @@ inline constexpr int k_constant_stride = 16;
 enum OperandPlace : std::uint16_t {
     operand_register = 0,
     operand_constant = 1u << 14,
-    operand_chunk = 2u << 14,      ///< index counts rows from ShadingChunk::position
+    operand_chunk = 2u << 14,  ///< index counts rows from ShadingChunk::position
 };
 inline constexpr std::uint16_t k_operand_index = (1u << 14) - 1;
 
@@ -27,9 +27,9 @@ inline constexpr std::uint16_t k_operand_index = (1u << 14) - 1;
 struct Instruction {
     Op op;
     std::uint16_t dst = 0;
-    std::uint32_t args = 0;     ///< first operand in ProgramView::args
-    std::uint32_t imm = 0;      ///< mode bits, name or image id; meaning by op
-    std::uint32_t data = 0;     ///< first value in ProgramView::data (ramps, curves)
+    std::uint32_t args = 0;  ///< first operand in ProgramView::args
+    std::uint32_t imm = 0;   ///< mode bits, name or image id; meaning by op
+    std::uint32_t data = 0;  ///< first value in ProgramView::data (ramps, curves)
 };
 static_assert(sizeof(Instruction) == 16);
 

@@ -28,7 +28,7 @@ struct Machine {
     const nodes::ShadingChunk& chunk;
     nodes::SurfaceOutput& out;
     float* registers;
-    int end;     ///< lanes to compute: n rounded up to W
+    int end;  ///< lanes to compute: n rounded up to W
 
     Source arg(const nodes::Instruction& in, int k) const {
         const std::uint16_t code = view.args[in.args + static_cast<std::uint32_t>(k)];

@@ -15,7 +15,9 @@ struct CellResult {
     Vec4 position{0.0f, 0.0f, 0.0f, 0.0f};
 };
 
-inline Vec4 select(Mask m, Vec4 a, Vec4 b) { return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)}; }
+inline Vec4 select(Mask m, Vec4 a, Vec4 b) {
+    return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z), select(m, a.w, b.w)};
+}
 template <int D>
 inline Float dot_of(Vec4 a, Vec4 b) {
     Float s = a.x * b.x;
@@ -59,7 +61,8 @@ inline Vec4 pcg(Int4 v) {
         }
     };
     round();
-    v = {v.x ^ arithmetic_shift_16(v.x), v.y ^ arithmetic_shift_16(v.y), v.z ^ arithmetic_shift_16(v.z), v.w ^ arithmetic_shift_16(v.w)};
+    v = {v.x ^ arithmetic_shift_16(v.x), v.y ^ arithmetic_shift_16(v.y), v.z ^ arithmetic_shift_16(v.z),
+         v.w ^ arithmetic_shift_16(v.w)};
     round();
     const auto unit = [](Int x) { return to_float(x & Int(0x7fffffff)) * (1.0f / 2147483647.0f); };
     return {unit(v.x), unit(v.y), D > 2 ? unit(v.z) : Float(0.0f), D > 3 ? unit(v.w) : Float(0.0f)};
@@ -78,8 +81,8 @@ inline Vec4 cell_point(Vec4 cell, bool use_pcg) {
         const Vec3 r = random_color<3>(cell);
         return {r.x, r.y, r.z, zero};
     }
-    return {random(cell.x, cell.y, cell.z, cell.w), random(cell.w, cell.x, cell.y, cell.z), random(cell.z, cell.w, cell.x, cell.y),
-            random(cell.y, cell.z, cell.w, cell.x)};
+    return {random(cell.x, cell.y, cell.z, cell.w), random(cell.w, cell.x, cell.y, cell.z),
+            random(cell.z, cell.w, cell.x, cell.y), random(cell.y, cell.z, cell.w, cell.x)};
 }
 
 template <int D>
@@ -113,7 +116,8 @@ inline void around(F f) {
         for (int k = -r3; k <= r3; ++k)
             for (int j = -r2; j <= r2; ++j)
                 for (int i = -r1; i <= r1; ++i)
-                    f(Vec4{Float(static_cast<float>(i)), Float(static_cast<float>(j)), Float(static_cast<float>(k)), Float(static_cast<float>(l))});
+                    f(Vec4{Float(static_cast<float>(i)), Float(static_cast<float>(j)), Float(static_cast<float>(k)),
+                           Float(static_cast<float>(l))});
 }
 
 struct Placed {
@@ -165,7 +169,8 @@ inline CellResult smooth_cell(Vec4 p, const CellSettings& s) {
             const Vec3 c = cell_color<D>(at.cell + offset, s.pcg);
             r.color = {blend(r.color.x, c.x), blend(r.color.y, c.y), blend(r.color.z, c.z)};
         }
-        r.position = {blend(r.position.x, point.x), blend(r.position.y, point.y), blend(r.position.z, point.z), blend(r.position.w, point.w)};
+        r.position = {blend(r.position.x, point.x), blend(r.position.y, point.y), blend(r.position.z, point.z),
+                      blend(r.position.w, point.w)};
     });
     r.position = r.position + at.cell;
     return r;
@@ -181,7 +186,9 @@ inline Float edge_distance(Vec4 p, const CellSettings& s) {
         return min(abs(0.5f * (mid + point(-1)) - at.local.x), abs(0.5f * (mid + point(1)) - at.local.x));
     }
     Vec4 closest{0.0f, 0.0f, 0.0f, 0.0f};
-    const auto to_point = [&](Vec4 offset) { return offset + cell_point<D>(at.cell + offset, s.pcg) * s.randomness - at.local; };
+    const auto to_point = [&](Vec4 offset) {
+        return offset + cell_point<D>(at.cell + offset, s.pcg) * s.randomness - at.local;
+    };
     around<D, 1>([&](Vec4 offset) {
         const Vec4 v = to_point(offset);
         const Float d = dot_of<D>(v, v);

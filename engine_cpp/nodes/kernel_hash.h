@@ -10,7 +10,8 @@ inline Int rotate_left(Int x, int k) { return (x << k) | (x >> (32 - k)); }
 
 struct HashState {
     Int a, b, c;
-    explicit HashState(int words) : a(Int::of_bits(0xdeadbeefu + (static_cast<std::uint32_t>(words) << 2) + 13u)), b(a), c(a) {}
+    explicit HashState(int words)
+        : a(Int::of_bits(0xdeadbeefu + (static_cast<std::uint32_t>(words) << 2) + 13u)), b(a), c(a) {}
     void mix() {
         a = (a - c) ^ rotate_left(c, 4);
         c += b;
@@ -88,20 +89,27 @@ struct Vec4 {
 
 template <int D>
 inline Float random(Vec4 p) {
-    if constexpr (D == 1) return random(p.x);
-    else if constexpr (D == 2) return random(p.x, p.y);
-    else if constexpr (D == 3) return random(p.x, p.y, p.z);
-    else return random(p.x, p.y, p.z, p.w);
+    if constexpr (D == 1)
+        return random(p.x);
+    else if constexpr (D == 2)
+        return random(p.x, p.y);
+    else if constexpr (D == 3)
+        return random(p.x, p.y, p.z);
+    else
+        return random(p.x, p.y, p.z, p.w);
 }
 
 /// Three numbers in [0, 1] from one point.
 template <int D>
 inline Vec3 random_color(Vec4 p) {
-    if constexpr (D == 1) return {random(p.x), random(p.x, Float(1.0f)), random(p.x, Float(2.0f))};
-    else if constexpr (D == 2) return {random(p.x, p.y), random(p.x, p.y, Float(1.0f)), random(p.x, p.y, Float(2.0f))};
+    if constexpr (D == 1)
+        return {random(p.x), random(p.x, Float(1.0f)), random(p.x, Float(2.0f))};
+    else if constexpr (D == 2)
+        return {random(p.x, p.y), random(p.x, p.y, Float(1.0f)), random(p.x, p.y, Float(2.0f))};
     else if constexpr (D == 3)
         return {random(p.x, p.y, p.z), random(p.x, p.y, p.z, Float(1.0f)), random(p.x, p.y, p.z, Float(2.0f))};
-    else return {random(p.x, p.y, p.z, p.w), random(p.z, p.x, p.w, p.y), random(p.w, p.z, p.y, p.x)};
+    else
+        return {random(p.x, p.y, p.z, p.w), random(p.z, p.x, p.w, p.y), random(p.w, p.z, p.y, p.x)};
 }
 
 }  // namespace cardioid::CD_ISA_NS

@@ -18,7 +18,9 @@ struct Cell {
 };
 
 /// x, or -x where the bit of h is set.
-inline Float flip(Float x, Int h, int bit) { return float_of_bits(bits_of(x) ^ ((h << (31 - bit)) & Int::of_bits(0x80000000u))); }
+inline Float flip(Float x, Int h, int bit) {
+    return float_of_bits(bits_of(x) ^ ((h << (31 - bit)) & Int::of_bits(0x80000000u)));
+}
 inline Mask bit_set(Int h, int bit) { return (h & Int(1 << bit)) != Int(0); }
 inline Float lerp(Float a, Float b, Float t) { return a + t * (b - a); }
 
@@ -61,9 +63,12 @@ inline Float perlin(Float px, Float py, Float pz) {
     const Cell x(px), y(py), z(pz);
     const Int one(1);
     const auto row = [&](Int yi, Float yf, Int zi, Float zf) {
-        return lerp(gradient(hash3(x.i, yi, zi), x.f, yf, zf), gradient(hash3(x.i + one, yi, zi), x.f - 1.0f, yf, zf), x.fade);
+        return lerp(gradient(hash3(x.i, yi, zi), x.f, yf, zf), gradient(hash3(x.i + one, yi, zi), x.f - 1.0f, yf, zf),
+                    x.fade);
     };
-    const auto plane = [&](Int zi, Float zf) { return lerp(row(y.i, y.f, zi, zf), row(y.i + one, y.f - 1.0f, zi, zf), y.fade); };
+    const auto plane = [&](Int zi, Float zf) {
+        return lerp(row(y.i, y.f, zi, zf), row(y.i + one, y.f - 1.0f, zi, zf), y.fade);
+    };
     return lerp(plane(z.i, z.f), plane(z.i + one, z.f - 1.0f), z.fade) * 0.9820f;
 }
 
@@ -71,22 +76,28 @@ inline Float perlin(Float px, Float py, Float pz, Float pw) {
     const Cell x(px), y(py), z(pz), w(pw);
     const Int one(1);
     const auto row = [&](Int yi, Float yf, Int zi, Float zf, Int wi, Float wf) {
-        return lerp(gradient(hash4(x.i, yi, zi, wi), x.f, yf, zf, wf), gradient(hash4(x.i + one, yi, zi, wi), x.f - 1.0f, yf, zf, wf),
-                    x.fade);
+        return lerp(gradient(hash4(x.i, yi, zi, wi), x.f, yf, zf, wf),
+                    gradient(hash4(x.i + one, yi, zi, wi), x.f - 1.0f, yf, zf, wf), x.fade);
     };
     const auto plane = [&](Int zi, Float zf, Int wi, Float wf) {
         return lerp(row(y.i, y.f, zi, zf, wi, wf), row(y.i + one, y.f - 1.0f, zi, zf, wi, wf), y.fade);
     };
-    const auto space = [&](Int wi, Float wf) { return lerp(plane(z.i, z.f, wi, wf), plane(z.i + one, z.f - 1.0f, wi, wf), z.fade); };
+    const auto space = [&](Int wi, Float wf) {
+        return lerp(plane(z.i, z.f, wi, wf), plane(z.i + one, z.f - 1.0f, wi, wf), z.fade);
+    };
     return lerp(space(w.i, w.f), space(w.i + one, w.f - 1.0f), w.fade) * 0.8344f;
 }
 
 template <int D>
 inline Float perlin(Vec4 p) {
-    if constexpr (D == 1) return perlin(p.x);
-    else if constexpr (D == 2) return perlin(p.x, p.y);
-    else if constexpr (D == 3) return perlin(p.x, p.y, p.z);
-    else return perlin(p.x, p.y, p.z, p.w);
+    if constexpr (D == 1)
+        return perlin(p.x);
+    else if constexpr (D == 2)
+        return perlin(p.x, p.y);
+    else if constexpr (D == 3)
+        return perlin(p.x, p.y, p.z);
+    else
+        return perlin(p.x, p.y, p.z, p.w);
 }
 
 }  // namespace cardioid::CD_ISA_NS

@@ -26,17 +26,21 @@ struct LaneAffine {
     Float m[12];
     Vec3 point(Vec3 p) const { return vector(p) + Vec3{m[3], m[7], m[11]}; }
     Vec3 vector(Vec3 v) const {
-        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z, m[8] * v.x + m[9] * v.y + m[10] * v.z};
+        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+                m[8] * v.x + m[9] * v.y + m[10] * v.z};
     }
     Vec3 transposed_vector(Vec3 v) const {
-        return {m[0] * v.x + m[4] * v.y + m[8] * v.z, m[1] * v.x + m[5] * v.y + m[9] * v.z, m[2] * v.x + m[6] * v.y + m[10] * v.z};
+        return {m[0] * v.x + m[4] * v.y + m[8] * v.z, m[1] * v.x + m[5] * v.y + m[9] * v.z,
+                m[2] * v.x + m[6] * v.y + m[10] * v.z};
     }
 };
 
 /// A matrix of the lanes' instances, `member` its byte offset; the identity for lamps and the world.
 inline LaneAffine instance_affine(const nodes::ShadingChunk& chunk, int i, std::size_t member) {
     LaneAffine a;
-    for (int k = 0; k < 12; ++k) a.m[k] = instance_float(chunk, i, member + sizeof(float) * static_cast<std::size_t>(k), k % 5 == 0 ? 1.0f : 0.0f);
+    for (int k = 0; k < 12; ++k)
+        a.m[k] =
+            instance_float(chunk, i, member + sizeof(float) * static_cast<std::size_t>(k), k % 5 == 0 ? 1.0f : 0.0f);
     return a;
 }
 

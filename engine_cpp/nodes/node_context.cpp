@@ -14,7 +14,8 @@ const Value* NodeContext::source(const char* id) const {
     const scene::InputDesc* in = input(id);
     if (in == nullptr || !in->linked()) return nullptr;
     if (compiler_.is_closure(in->node)) {
-        compiler_.warn(compiler_.context().name + "/closure", place() + ": a shader is linked to '" + id + "', which takes a value");
+        compiler_.warn(compiler_.context().name + "/closure",
+                       place() + ": a shader is linked to '" + id + "', which takes a value");
         return nullptr;
     }
     return compiler_.output(in->node, in->socket, shift_);
@@ -84,13 +85,15 @@ Ref NodeContext::barycentric(int k) {
 Ref3 NodeContext::object_position() {
     const Ref3 p = position();
     if (kind() == GraphKind::world) return p;
-    return b.emit3(Op::transform, {p.x, p.y, p.z}, transform_mode(Space::object, Quantity::point, Direction::from_world));
+    return b.emit3(Op::transform, {p.x, p.y, p.z},
+                   transform_mode(Space::object, Quantity::point, Direction::from_world));
 }
 
 Ref3 NodeContext::generated() {
     const Ref3 p = position();
     if (kind() == GraphKind::world) return p;
-    return b.emit3(Op::transform, {p.x, p.y, p.z}, transform_mode(Space::generated, Quantity::point, Direction::from_world));
+    return b.emit3(Op::transform, {p.x, p.y, p.z},
+                   transform_mode(Space::generated, Quantity::point, Direction::from_world));
 }
 
 std::uint32_t NodeContext::attribute_id(const std::string& name) {
@@ -144,10 +147,13 @@ bool NodeContext::room_for_lobe(Ref3 weight) {
     return false;
 }
 
-void NodeContext::simple_lobe(bsdf::LobeKind lobe, Ref3 weight, Ref3 n, Ref roughness, bool preserve_energy, Ref3 color_rows) {
+void NodeContext::simple_lobe(bsdf::LobeKind lobe, Ref3 weight, Ref3 n, Ref roughness, bool preserve_energy,
+                              Ref3 color_rows) {
     if (kind() != GraphKind::material || !room_for_lobe(weight)) return;
-    const std::uint32_t imm = static_cast<std::uint32_t>(lobe) | lobe_keep | (preserve_energy ? lobe_preserve_energy : 0u);
-    b.emit(Op::lobe_simple, {weight.x, weight.y, weight.z, n.x, n.y, n.z, roughness, color_rows.x, color_rows.y, color_rows.z}, imm);
+    const std::uint32_t imm =
+        static_cast<std::uint32_t>(lobe) | lobe_keep | (preserve_energy ? lobe_preserve_energy : 0u);
+    b.emit(Op::lobe_simple,
+           {weight.x, weight.y, weight.z, n.x, n.y, n.z, roughness, color_rows.x, color_rows.y, color_rows.z}, imm);
 }
 
 GgxLobe NodeContext::ggx() {
@@ -163,18 +169,23 @@ GgxLobe NodeContext::ggx() {
 
 Ref NodeContext::ggx_lobe(const GgxLobe& l) {
     if (kind() != GraphKind::material || !room_for_lobe(l.weight)) return b.constant(1);
-    const std::uint32_t imm = static_cast<std::uint32_t>(l.kind) | static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
+    const std::uint32_t imm = static_cast<std::uint32_t>(l.kind) |
+                              static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
                               (l.preserve_energy ? lobe_preserve_energy : 0u);
-    return b.emit(Op::lobe_ggx, {l.weight.x,  l.weight.y,  l.weight.z, l.normal.x, l.normal.y, l.normal.z, l.tangent.x, l.tangent.y,
-                                 l.tangent.z, l.alpha_x,   l.alpha_y,  l.eta,      l.f0.x,     l.f0.y,     l.f0.z,      l.f90.x,
-                                 l.f90.y,     l.f90.z,     l.tint.x,   l.tint.y,   l.tint.z,   l.layer_weight.x, l.layer_weight.y,
-                                 l.layer_weight.z}, imm);
+    return b.emit(Op::lobe_ggx,
+                  {l.weight.x,  l.weight.y,  l.weight.z,  l.normal.x,       l.normal.y,       l.normal.z,
+                   l.tangent.x, l.tangent.y, l.tangent.z, l.alpha_x,        l.alpha_y,        l.eta,
+                   l.f0.x,      l.f0.y,      l.f0.z,      l.f90.x,          l.f90.y,          l.f90.z,
+                   l.tint.x,    l.tint.y,    l.tint.z,    l.layer_weight.x, l.layer_weight.y, l.layer_weight.z},
+                  imm);
 }
 
 Ref NodeContext::sheen_lobe(Ref3 weight, Ref3 n, Ref roughness, Ref3 layer_weight) {
     if (kind() != GraphKind::material || !room_for_lobe(weight)) return b.constant(1);
-    return b.emit(Op::lobe_sheen, {weight.x, weight.y, weight.z, n.x, n.y, n.z, roughness, layer_weight.x, layer_weight.y, layer_weight.z},
-                  static_cast<std::uint32_t>(bsdf::LobeKind::sheen));
+    return b.emit(
+        Op::lobe_sheen,
+        {weight.x, weight.y, weight.z, n.x, n.y, n.z, roughness, layer_weight.x, layer_weight.y, layer_weight.z},
+        static_cast<std::uint32_t>(bsdf::LobeKind::sheen));
 }
 
 Ref3 NodeContext::closure_normal(const char* id, bool glossy) {

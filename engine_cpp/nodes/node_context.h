@@ -20,8 +20,12 @@ struct GgxLobe {
 class NodeContext {
 public:
     NodeContext(GraphCompiler& compiler, int index, Shift shift, Outputs* outputs)
-        : b(compiler.builder()), node(compiler.graph_.nodes[static_cast<std::size_t>(index)]), compiler_(compiler), index_(index),
-          shift_(shift), outputs_(outputs) {}
+        : b(compiler.builder()),
+          node(compiler.graph_.nodes[static_cast<std::size_t>(index)]),
+          compiler_(compiler),
+          index_(index),
+          shift_(shift),
+          outputs_(outputs) {}
 
     Builder& b;
     const scene::NodeDesc& node;

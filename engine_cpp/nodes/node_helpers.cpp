@@ -9,11 +9,21 @@ namespace {
 
 /// Rotation about x, then y, then z.
 Affine euler(Float3 r) {
-    const float cx = std::cos(r.x), sx = std::sin(r.x), cy = std::cos(r.y), sy = std::sin(r.y), cz = std::cos(r.z), sz = std::sin(r.z);
+    const float cx = std::cos(r.x), sx = std::sin(r.x), cy = std::cos(r.y), sy = std::sin(r.y), cz = std::cos(r.z),
+                sz = std::sin(r.z);
     Affine a;
-    a.m = {cy * cz, sx * sy * cz - cx * sz, cx * sy * cz + sx * sz, 0,
-           cy * sz, sx * sy * sz + cx * cz, cx * sy * sz - sx * cz, 0,
-           -sy,     sx * cy,                cx * cy,                0};
+    a.m = {cy * cz,
+           sx * sy * cz - cx * sz,
+           cx * sy * cz + sx * sz,
+           0,
+           cy * sz,
+           sx * sy * sz + cx * cz,
+           cx * sy * sz - sx * cz,
+           0,
+           -sy,
+           sx * cy,
+           cx * cy,
+           0};
     return a;
 }
 
@@ -70,10 +80,14 @@ Ref3 constant_affine(NodeContext& c, const Affine& a, Ref3 v, bool translate) {
 
 Ref3 texture_point(NodeContext& c, TextureDefault unlinked) {
     Ref3 p;
-    if (c.linked("Vector")) p = c.vector("Vector");
-    else if (unlinked == TextureDefault::uv) p = active_uv(c);
-    else if (unlinked == TextureDefault::position) p = c.position();
-    else p = c.generated();
+    if (c.linked("Vector"))
+        p = c.vector("Vector");
+    else if (unlinked == TextureDefault::uv)
+        p = active_uv(c);
+    else if (unlinked == TextureDefault::position)
+        p = c.position();
+    else
+        p = c.generated();
     const std::string type = c.text("texture_mapping_type");
     if (type.empty()) return p;
     p = constant_affine(c, panel_matrix(c, type), p, true);

@@ -14,7 +14,8 @@ inline Ref sided_eta(NodeContext& c, Ref ior) {
 
 /// The part of an object-space direction that lies in the surface.
 inline Ref3 tangent_around(NodeContext& c, Ref3 around) {
-    const Ref3 t = c.b.emit3(Op::transform, {around.x, around.y, around.z}, transform_mode(Space::object, Quantity::normal, Direction::to_world));
+    const Ref3 t = c.b.emit3(Op::transform, {around.x, around.y, around.z},
+                             transform_mode(Space::object, Quantity::normal, Direction::to_world));
     const Ref3 n = c.normal();
     return c.b.cross(n, c.b.normalize(c.b.cross(t, n)));
 }

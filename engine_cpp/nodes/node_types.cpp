@@ -9,8 +9,8 @@ namespace {
 
 std::map<std::string, const NodeType*> make_index() {
     std::map<std::string, const NodeType*> index;
-    for (const auto family : {closure_nodes(), principled_nodes(), input_nodes(), math_nodes(), color_nodes(), convert_nodes(),
-                              texture_nodes(), image_nodes(), vector_nodes()})
+    for (const auto family : {closure_nodes(), principled_nodes(), input_nodes(), math_nodes(), color_nodes(),
+                              convert_nodes(), texture_nodes(), image_nodes(), vector_nodes()})
         for (const NodeType& type : family) index.emplace(type.idname, &type);
     return index;
 }
@@ -30,7 +30,8 @@ const NodeType* find_node_type(const std::string& idname) {
 std::string node_table_markdown() {
     std::string text = "| node | as in Cycles | notes |\n|---|---|---|\n";
     for (const auto& [name, type] : node_index())
-        text += "| `" + name + "` | " + (type->support == Support::same ? "same" : "approximated") + " | " + type->note + " |\n";
+        text += "| `" + name + "` | " + (type->support == Support::same ? "same" : "approximated") + " | " +
+                type->note + " |\n";
     return text;
 }
 

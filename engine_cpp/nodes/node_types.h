@@ -15,10 +15,10 @@ enum class Support : std::uint8_t { same, approximated };
 
 struct NodeType {
     const char* idname;
-    void (*values)(NodeContext&);                 ///< computes the outputs, or null
-    void (*closure)(NodeContext&, Ref weight);    ///< adds to the surface, or null
-    Support support;                              ///< same: as Cycles does, to rounding
-    const char* note;                             ///< what differs
+    void (*values)(NodeContext&);               ///< computes the outputs, or null
+    void (*closure)(NodeContext&, Ref weight);  ///< adds to the surface, or null
+    Support support;                            ///< same: as Cycles does, to rounding
+    const char* note;                           ///< what differs
 };
 
 std::span<const NodeType> closure_nodes();

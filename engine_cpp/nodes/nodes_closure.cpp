@@ -10,7 +10,9 @@ using bsdf::Fresnel;
 using bsdf::LobeKind;
 
 /// Colour of a closure times its weight; negative colours are black.
-Ref3 weighted(NodeContext& c, Ref weight) { return c.b.multiply(c.b.maximum(c.color("Color", {0.8f, 0.8f, 0.8f}), c.b.constant(0)), weight); }
+Ref3 weighted(NodeContext& c, Ref weight) {
+    return c.b.multiply(c.b.maximum(c.color("Color", {0.8f, 0.8f, 0.8f}), c.b.constant(0)), weight);
+}
 
 void mix_shader(NodeContext& c, Ref weight) {
     const Ref fac = c.b.saturate(c.number("Fac", 0.5f));
@@ -90,6 +92,19 @@ void glossy(NodeContext& c, Ref weight) {
     c.ggx_lobe(l);
 }
 
+/// Before 4.0 rough glass is two lobes, weighted by the Fresnel term of the whole surface instead of each facet's.
+void old_rough_glass(NodeContext& c, GgxLobe l) {
+    const Ref3 weight = l.weight;
+    const Ref f = fresnel(c, c.b.dot(l.normal, c.b.chunk3(ChunkRow::wo)), l.eta);
+    l.kind = LobeKind::ggx_reflection;
+    l.fresnel = Fresnel::none;
+    l.weight = c.b.multiply(weight, f);
+    c.ggx_lobe(l);
+    l.kind = LobeKind::ggx_refraction;
+    l.weight = c.b.multiply(weight, c.b.maximum(c.b.one_minus(f), c.b.constant(0.0001f)));
+    c.ggx_lobe(l);
+}
+
 void glass(NodeContext& c, Ref weight) {
     GgxLobe l = c.ggx();
     l.kind = LobeKind::ggx_glass;
@@ -97,9 +112,15 @@ void glass(NodeContext& c, Ref weight) {
     l.weight = weighted(c, weight);
     l.normal = c.closure_normal("Normal", true);
     l.alpha_x = l.alpha_y = alpha_of(c, 0);
-    l.preserve_energy = c.text("distribution", "GGX") == "MULTI_GGX" && !c.b.is(l.alpha_x, 0);
     l.f0 = c.b.saturate(c.color("Color"));
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
+    const bool smooth = c.b.is_constant(l.alpha_x) && c.b.value(l.alpha_x) <= bsdf::k_delta_alpha;
+    const bool multi = c.text("distribution", "GGX") == "MULTI_GGX";
+    if (c.property("version", 1) < 2 && !smooth && !multi) {
+        old_rough_glass(c, l);
+        return;
+    }
+    l.preserve_energy = multi && !smooth;
     c.ggx_lobe(l);
 }
 

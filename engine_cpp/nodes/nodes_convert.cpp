@@ -52,13 +52,16 @@ void separate_hsv(NodeContext& c) {
     c.number_out("V", v.z);
 }
 
-void combine_hsv(NodeContext& c) { c.color_out("Color", convert(c, Op::hsv_to_rgb, {c.number("H"), c.number("S"), c.number("V")})); }
+void combine_hsv(NodeContext& c) {
+    c.color_out("Color", convert(c, Op::hsv_to_rgb, {c.number("H"), c.number("S"), c.number("V")}));
+}
 
 void rgb_to_bw(NodeContext& c) { c.number_out("Val", c.b.luminance(c.color("Color", {0.5f, 0.5f, 0.5f}))); }
 
 void color_ramp(NodeContext& c) {
     const std::string interpolation = c.text("ramp_interpolation", "LINEAR");
-    const std::vector<float> table = ramp_table(c.list("ramp"), interpolation, c.text("ramp_color_mode", "RGB"), c.text("ramp_hue", "NEAR"));
+    const std::vector<float> table =
+        ramp_table(c.list("ramp"), interpolation, c.text("ramp_color_mode", "RGB"), c.text("ramp_hue", "NEAR"));
     const Results r = c.b.emit_all(Op::ramp, {c.number("Fac", 0.5f)}, interpolation != "CONSTANT", c.b.add_data(table));
     c.color_out("Color", {r[0], r[1], r[2]});
     c.number_out("Alpha", r[3]);
@@ -69,20 +72,25 @@ Ref curve(NodeContext& c, const char* name, Ref x) {
     const std::vector<double> values = c.list(name);
     if (values.size() != static_cast<std::size_t>(k_table_size)) return x;
     const std::vector<float> table(values.begin(), values.end());
-    const float low = static_cast<float>(c.property("curve_min", 0)), high = static_cast<float>(c.property("curve_max", 1));
+    const float low = static_cast<float>(c.property("curve_min", 0)),
+                high = static_cast<float>(c.property("curve_max", 1));
     const Ref place = c.b.divide(c.b.subtract(x, c.b.constant(low)), c.b.constant(high - low));
     return c.b.emit(Op::curve, {place}, c.flag("curve_extrapolate"), c.b.add_data(table));
 }
 
-Ref blended(NodeContext& c, Ref a, Ref b, Ref fac) { return c.b.optimise() && c.b.is(fac, 1) ? b : c.b.emit(Op::blend, {a, b, fac}); }
+Ref blended(NodeContext& c, Ref a, Ref b, Ref fac) {
+    return c.b.optimise() && c.b.is(fac, 1) ? b : c.b.emit(Op::blend, {a, b, fac});
+}
 
 void curves(NodeContext& c, const char* input, const char* output, const char* names[3], bool color) {
     const Ref fac = c.number("Fac", 1);
     const Ref3 v = c.vector(input);
     const Ref3 r = {blended(c, v.x, curve(c, names[0], v.x), fac), blended(c, v.y, curve(c, names[1], v.y), fac),
                     blended(c, v.z, curve(c, names[2], v.z), fac)};
-    if (color) c.color_out(output, r);
-    else c.vector_out(output, r);
+    if (color)
+        c.color_out(output, r);
+    else
+        c.vector_out(output, r);
 }
 
 void rgb_curves(NodeContext& c) {

@@ -31,17 +31,19 @@ std::int64_t image_mode(NodeContext& c, std::uint32_t extension, image::AlphaUse
            static_cast<std::int64_t>(extension) << 28;
 }
 
-Results lookup(NodeContext& c, std::int64_t mode, Ref u, Ref v) { return c.b.emit_all(Op::image, {u, v}, static_cast<std::uint32_t>(mode)); }
+Results lookup(NodeContext& c, std::int64_t mode, Ref u, Ref v) {
+    return c.b.emit_all(Op::image, {u, v}, static_cast<std::uint32_t>(mode));
+}
 
 void outputs(NodeContext& c, Ref3 color, Ref alpha) {
     c.color_out("Color", color);
     c.number_out("Alpha", alpha);
 }
 
-/// A node without an image gives black in Blender; one whose image is lost is magenta, which the image room sees to.
+/// A node without an image is magenta in Cycles, like one whose image is lost (which the image room sees to).
 bool no_image(NodeContext& c, std::int64_t mode) {
     if (mode >= 0) return false;
-    outputs(c, c.b.constant(Float3{0, 0, 0}), c.b.constant(0));
+    outputs(c, c.b.constant(Float3{1, 0, 1}), c.b.constant(1));
     return true;
 }
 
@@ -52,8 +54,10 @@ Ref3 from_unit_box(NodeContext& c, Ref3 p) {
 
 void box(NodeContext& c, std::int64_t mode, Ref3 p) {
     const Ref3 n = c.normal();
-    const Ref3 local = c.b.emit3(Op::transform, {n.x, n.y, n.z}, transform_mode(Space::object, Quantity::normal, Direction::from_world));
-    const Ref3 w = c.b.emit3(Op::box_weights, {local.x, local.y, local.z, c.b.constant(static_cast<float>(c.property("projection_blend")))});
+    const Ref3 local = c.b.emit3(Op::transform, {n.x, n.y, n.z},
+                                 transform_mode(Space::object, Quantity::normal, Direction::from_world));
+    const Ref3 w = c.b.emit3(
+        Op::box_weights, {local.x, local.y, local.z, c.b.constant(static_cast<float>(c.property("projection_blend")))});
     // The side that faces the other way is mirrored, so that no texture is flipped.
     const auto flip = [&](Ref sign, Ref x) { return c.b.select_positive(sign, c.b.one_minus(x), x); };
     const Ref minus_x = c.b.multiply(local.x, c.b.constant(-1));
@@ -67,7 +71,8 @@ void box(NodeContext& c, std::int64_t mode, Ref3 p) {
 }
 
 void image_texture(NodeContext& c) {
-    const std::int64_t mode = image_mode(c, extension_of(c), c.used("Alpha") ? image::AlphaUse::straight : image::AlphaUse::associated);
+    const std::int64_t mode =
+        image_mode(c, extension_of(c), c.used("Alpha") ? image::AlphaUse::straight : image::AlphaUse::associated);
     if (no_image(c, mode)) return;
     const Ref3 p = texture_point(c, TextureDefault::uv);
     const std::string projection = c.text("projection", "FLAT");
@@ -87,7 +92,8 @@ void image_texture(NodeContext& c) {
 }
 
 void environment_texture(NodeContext& c) {
-    const std::int64_t mode = image_mode(c, static_cast<std::uint32_t>(image::Extension::repeat), image::AlphaUse::associated);
+    const std::int64_t mode =
+        image_mode(c, static_cast<std::uint32_t>(image::Extension::repeat), image::AlphaUse::associated);
     if (no_image(c, mode)) return;
     const Ref3 d = c.b.normalize(texture_point(c, TextureDefault::position));
     const bool ball = c.text("projection", "EQUIRECTANGULAR") == "MIRROR_BALL";
@@ -97,7 +103,8 @@ void environment_texture(NodeContext& c) {
 }
 
 constexpr NodeType k_nodes[] = {
-    {"ShaderNodeTexImage", image_texture, nullptr, Support::same, "cubic interpolation as the image room has it; no UDIM tiles"},
+    {"ShaderNodeTexImage", image_texture, nullptr, Support::same,
+     "cubic interpolation as the image room has it; no UDIM tiles"},
     {"ShaderNodeTexEnvironment", environment_texture, nullptr, Support::same, ""},
 };
 

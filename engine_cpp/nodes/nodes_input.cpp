@@ -20,7 +20,9 @@ void rgb(NodeContext& c) {
 
 void value(NodeContext& c) { c.number_out("Value", c.b.constant(static_cast<float>(c.property("value")))); }
 
-Ref3 instance3(NodeContext& c, InstanceValue value) { return rows3(c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(value))); }
+Ref3 instance3(NodeContext& c, InstanceValue value) {
+    return rows3(c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(value)));
+}
 
 /// Coordinates of another object: the inverse of its matrix, a parameter.
 Ref3 in_object_space(NodeContext& c) {
@@ -46,23 +48,27 @@ void texture_coordinate(NodeContext& c) {
     c.vector_out("Normal", transformed(c, c.normal(), Space::object, Quantity::normal, Direction::from_world));
     c.vector_out("Object", in_object_space(c));
     // The world is seen from the camera: its points are directions.
-    c.vector_out("Camera", transformed(c, p, Space::camera, world ? Quantity::vector : Quantity::point, Direction::from_world));
+    c.vector_out("Camera",
+                 transformed(c, p, Space::camera, world ? Quantity::vector : Quantity::point, Direction::from_world));
     c.vector_out("Window", c.b.emit3(Op::window, {p.x, p.y, p.z}, world));
     c.vector_out("Reflection", reflection(c));
 }
 
 void uv_map(NodeContext& c) {
     const std::string name = c.text("uv_map");
-    if (c.flag("from_instancer")) c.vector_out("UV", instance3(c, InstanceValue::dupli_uv));
-    else c.vector_out("UV", [&] {
-        const Results r = c.attribute(name.empty() ? k_active_uv : name);
-        return Ref3{r[0], r[1], c.b.constant(0)};
-    }());
+    if (c.flag("from_instancer"))
+        c.vector_out("UV", instance3(c, InstanceValue::dupli_uv));
+    else
+        c.vector_out("UV", [&] {
+            const Results r = c.attribute(name.empty() ? k_active_uv : name);
+            return Ref3{r[0], r[1], c.b.constant(0)};
+        }());
 }
 
 void attribute(NodeContext& c) {
     const std::string kind = c.text("attribute_type", "GEOMETRY");
-    if (kind != "GEOMETRY") c.warn("attribute " + kind, c.place() + ": attributes of type " + kind + " are not supported; they are 0");
+    if (kind != "GEOMETRY")
+        c.warn("attribute " + kind, c.place() + ": attributes of type " + kind + " are not supported; they are 0");
     const std::string name = kind == "GEOMETRY" ? c.text("attribute_name") : "";
     const Ref zero = c.b.constant(0);
     const Results r = name.empty() ? Results{zero, zero, zero, c.b.constant(1)} : c.attribute(name);
@@ -103,7 +109,9 @@ void object_info(NodeContext& c) {
 }
 
 void light_path(NodeContext& c) {
-    const auto out = [&](const char* id, RayValue v) { c.number_out(id, c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v))); };
+    const auto out = [&](const char* id, RayValue v) {
+        c.number_out(id, c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v)));
+    };
     out("Is Camera Ray", RayValue::is_camera);
     out("Is Shadow Ray", RayValue::is_shadow);
     out("Is Diffuse Ray", RayValue::is_diffuse);
@@ -122,8 +130,9 @@ void light_path(NodeContext& c) {
 }
 
 void camera_data(NodeContext& c) {
-    const Ref3 p = transformed(c, c.position(), Space::camera, c.kind() == GraphKind::world ? Quantity::vector : Quantity::point,
-                               Direction::from_world);
+    const Ref3 p =
+        transformed(c, c.position(), Space::camera, c.kind() == GraphKind::world ? Quantity::vector : Quantity::point,
+                    Direction::from_world);
     c.vector_out("View Vector", c.b.normalize(p));
     c.number_out("View Z Depth", p.z);
     c.number_out("View Distance", c.b.length(p));
@@ -140,9 +149,11 @@ void layer_weight(NodeContext& c) {
     Builder& b = c.b;
     const Ref one = b.constant(1), half = b.constant(0.5f), blend = c.number("Blend", 0.5f), cosine = facing_cosine(c);
     const Ref eta = b.maximum(b.one_minus(blend), b.constant(1e-5f));
-    c.number_out("Fresnel", fresnel(c, cosine, b.select_positive(b.chunk(ChunkRow::backfacing), eta, b.divide(one, eta))));
+    c.number_out("Fresnel",
+                 fresnel(c, cosine, b.select_positive(b.chunk(ChunkRow::backfacing), eta, b.divide(one, eta))));
     const Ref inside = b.emit(Op::clamp, {blend, b.constant(0), b.constant(1.0f - 1e-5f)});
-    const Ref exponent = b.select_positive(b.subtract(half, inside), b.multiply(inside, b.constant(2)), b.divide(half, b.one_minus(inside)));
+    const Ref exponent = b.select_positive(b.subtract(half, inside), b.multiply(inside, b.constant(2)),
+                                           b.divide(half, b.one_minus(inside)));
     const Ref f = b.emit(Op::absolute, {cosine});
     c.number_out("Facing", b.one_minus(b.is(blend, 0.5f) ? f : b.emit(Op::power, {f, exponent})));
 }
@@ -169,9 +180,11 @@ void bevel(NodeContext& c) { c.vector_out("Normal", c.vector_or("Normal", c.norm
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeRGB", rgb, nullptr, Support::same, ""},
     {"ShaderNodeValue", value, nullptr, Support::same, ""},
-    {"ShaderNodeTexCoord", texture_coordinate, nullptr, Support::same, "Generated is the texture space box of the mesh"},
+    {"ShaderNodeTexCoord", texture_coordinate, nullptr, Support::same,
+     "Generated is the texture space box of the mesh"},
     {"ShaderNodeUVMap", uv_map, nullptr, Support::same, ""},
-    {"ShaderNodeAttribute", attribute, nullptr, Support::approximated, "attributes of the geometry; those of objects and view layers are 0"},
+    {"ShaderNodeAttribute", attribute, nullptr, Support::approximated,
+     "attributes of the geometry; those of objects and view layers are 0"},
     {"ShaderNodeVertexColor", color_attribute, nullptr, Support::same, ""},
     {"ShaderNodeNewGeometry", geometry, nullptr, Support::approximated, "Pointiness is 0.5, Random Per Island is 0"},
     {"ShaderNodeObjectInfo", object_info, nullptr, Support::same, ""},

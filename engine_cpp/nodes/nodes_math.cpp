@@ -14,16 +14,44 @@ struct MathOp {
 
 /// Operations that are one instruction each; the others are built in math().
 constexpr MathOp k_math[] = {
-    {"ADD", Op::add, 2}, {"SUBTRACT", Op::subtract, 2}, {"MULTIPLY", Op::multiply, 2}, {"DIVIDE", Op::divide, 2},
-    {"MULTIPLY_ADD", Op::multiply_add, 3}, {"POWER", Op::power, 2}, {"LOGARITHM", Op::logarithm, 2}, {"SQRT", Op::square_root, 1},
-    {"INVERSE_SQRT", Op::inverse_square_root, 1}, {"ABSOLUTE", Op::absolute, 1}, {"EXPONENT", Op::exponent, 1},
-    {"MINIMUM", Op::minimum, 2}, {"MAXIMUM", Op::maximum, 2}, {"LESS_THAN", Op::less_than, 2}, {"GREATER_THAN", Op::greater_than, 2},
-    {"SIGN", Op::sign, 1}, {"COMPARE", Op::compare, 3}, {"SMOOTH_MIN", Op::smooth_minimum, 3}, {"ROUND", Op::round, 1},
-    {"FLOOR", Op::floor, 1}, {"CEIL", Op::ceil, 1}, {"TRUNC", Op::truncate, 1}, {"FRACT", Op::fraction, 1}, {"MODULO", Op::modulo, 2},
-    {"FLOORED_MODULO", Op::floored_modulo, 2}, {"WRAP", Op::wrap, 3}, {"SNAP", Op::snap, 2}, {"PINGPONG", Op::pingpong, 2},
-    {"SINE", Op::sine, 1}, {"COSINE", Op::cosine, 1}, {"TANGENT", Op::tangent, 1}, {"ARCSINE", Op::arcsine, 1},
-    {"ARCCOSINE", Op::arccosine, 1}, {"ARCTANGENT", Op::arctangent, 1}, {"ARCTAN2", Op::arctan2, 2}, {"SINH", Op::sinh, 1},
-    {"COSH", Op::cosh, 1}, {"TANH", Op::tanh, 1},
+    {"ADD", Op::add, 2},
+    {"SUBTRACT", Op::subtract, 2},
+    {"MULTIPLY", Op::multiply, 2},
+    {"DIVIDE", Op::divide, 2},
+    {"MULTIPLY_ADD", Op::multiply_add, 3},
+    {"POWER", Op::power, 2},
+    {"LOGARITHM", Op::logarithm, 2},
+    {"SQRT", Op::square_root, 1},
+    {"INVERSE_SQRT", Op::inverse_square_root, 1},
+    {"ABSOLUTE", Op::absolute, 1},
+    {"EXPONENT", Op::exponent, 1},
+    {"MINIMUM", Op::minimum, 2},
+    {"MAXIMUM", Op::maximum, 2},
+    {"LESS_THAN", Op::less_than, 2},
+    {"GREATER_THAN", Op::greater_than, 2},
+    {"SIGN", Op::sign, 1},
+    {"COMPARE", Op::compare, 3},
+    {"SMOOTH_MIN", Op::smooth_minimum, 3},
+    {"ROUND", Op::round, 1},
+    {"FLOOR", Op::floor, 1},
+    {"CEIL", Op::ceil, 1},
+    {"TRUNC", Op::truncate, 1},
+    {"FRACT", Op::fraction, 1},
+    {"MODULO", Op::modulo, 2},
+    {"FLOORED_MODULO", Op::floored_modulo, 2},
+    {"WRAP", Op::wrap, 3},
+    {"SNAP", Op::snap, 2},
+    {"PINGPONG", Op::pingpong, 2},
+    {"SINE", Op::sine, 1},
+    {"COSINE", Op::cosine, 1},
+    {"TANGENT", Op::tangent, 1},
+    {"ARCSINE", Op::arcsine, 1},
+    {"ARCCOSINE", Op::arccosine, 1},
+    {"ARCTANGENT", Op::arctangent, 1},
+    {"ARCTAN2", Op::arctan2, 2},
+    {"SINH", Op::sinh, 1},
+    {"COSH", Op::cosh, 1},
+    {"TANH", Op::tanh, 1},
 };
 
 const MathOp* find_math(const std::string& name) {
@@ -46,11 +74,16 @@ void math(NodeContext& c) {
     const std::string name = c.text("operation", "ADD");
     const Ref x = c.number("Value"), y = c.number("Value_001"), z = c.number("Value_002");
     Ref r = c.b.constant(0);
-    if (const MathOp* m = find_math(name)) r = apply(c.b, *m, x, y, z);
-    else if (name == "SMOOTH_MAX") r = negative(c.b, c.b.emit(Op::smooth_minimum, {negative(c.b, x), negative(c.b, y), z}));
-    else if (name == "RADIANS") r = c.b.multiply(x, c.b.constant(0.017453292519943f));
-    else if (name == "DEGREES") r = c.b.multiply(x, c.b.constant(57.29577951308232f));
-    else c.warn("math " + name, c.place() + ": operation " + name + " is not supported; it gives 0");
+    if (const MathOp* m = find_math(name))
+        r = apply(c.b, *m, x, y, z);
+    else if (name == "SMOOTH_MAX")
+        r = negative(c.b, c.b.emit(Op::smooth_minimum, {negative(c.b, x), negative(c.b, y), z}));
+    else if (name == "RADIANS")
+        r = c.b.multiply(x, c.b.constant(0.017453292519943f));
+    else if (name == "DEGREES")
+        r = c.b.multiply(x, c.b.constant(57.29577951308232f));
+    else
+        c.warn("math " + name, c.place() + ": operation " + name + " is not supported; it gives 0");
     c.number_out("Value", c.flag("use_clamp") ? c.b.saturate(r) : r);
 }
 
@@ -84,19 +117,32 @@ void vector_math(NodeContext& c) {
     const Ref scale = c.number("Scale", 1), zero = b.constant(0);
     Ref3 v = {zero, zero, zero};
     Ref number = zero;
-    if (name == "CROSS_PRODUCT") v = b.cross(x, y);
-    else if (name == "PROJECT") v = project(b, x, y);
-    else if (name == "REFLECT") v = reflect(b, x, y);
-    else if (name == "REFRACT") v = refract(b, x, y, scale);
-    else if (name == "FACEFORWARD") v = face_forward(b, x, y, z);
-    else if (name == "DOT_PRODUCT") number = b.dot(x, y);
-    else if (name == "DISTANCE") number = b.length(b.subtract(x, y));
-    else if (name == "LENGTH") number = b.length(x);
-    else if (name == "SCALE") v = b.multiply(x, scale);
-    else if (name == "NORMALIZE") v = b.normalize(x);
-    else if (name == "FRACTION") v = Builder::each(x, [&](Ref a) { return b.emit(Op::fraction, {a}); });
-    else if (const MathOp* m = find_math(name)) v = {apply(b, *m, x.x, y.x, z.x), apply(b, *m, x.y, y.y, z.y), apply(b, *m, x.z, y.z, z.z)};
-    else c.warn("vector math " + name, c.place() + ": operation " + name + " is not supported; it gives 0");
+    if (name == "CROSS_PRODUCT")
+        v = b.cross(x, y);
+    else if (name == "PROJECT")
+        v = project(b, x, y);
+    else if (name == "REFLECT")
+        v = reflect(b, x, y);
+    else if (name == "REFRACT")
+        v = refract(b, x, y, scale);
+    else if (name == "FACEFORWARD")
+        v = face_forward(b, x, y, z);
+    else if (name == "DOT_PRODUCT")
+        number = b.dot(x, y);
+    else if (name == "DISTANCE")
+        number = b.length(b.subtract(x, y));
+    else if (name == "LENGTH")
+        number = b.length(x);
+    else if (name == "SCALE")
+        v = b.multiply(x, scale);
+    else if (name == "NORMALIZE")
+        v = b.normalize(x);
+    else if (name == "FRACTION")
+        v = Builder::each(x, [&](Ref a) { return b.emit(Op::fraction, {a}); });
+    else if (const MathOp* m = find_math(name))
+        v = {apply(b, *m, x.x, y.x, z.x), apply(b, *m, x.y, y.y, z.y), apply(b, *m, x.z, y.z, z.z)};
+    else
+        c.warn("vector math " + name, c.place() + ": operation " + name + " is not supported; it gives 0");
     c.vector_out("Vector", v);
     c.number_out("Value", number);
 }
@@ -130,7 +176,8 @@ Ref map_one(Builder& b, const std::string& type, Ref x, const Range& r, bool cla
 /// A range from a point to itself gives 0.
 Ref map_number(NodeContext& c, const std::string& type) {
     Builder& b = c.b;
-    const Range r = {c.number("From Min", 0), c.number("From Max", 1), c.number("To Min", 0), c.number("To Max", 1), c.number("Steps", 4)};
+    const Range r = {c.number("From Min", 0), c.number("From Max", 1), c.number("To Min", 0), c.number("To Max", 1),
+                     c.number("Steps", 4)};
     const Ref width = b.emit(Op::absolute, {b.subtract(r.from_max, r.from_min)});
     const Ref y = b.select_positive(width, map_one(b, type, c.number("Value", 1), r, false), b.constant(0));
     if (!c.flag("clamp", true) || type.starts_with("SMOOTH")) return y;
@@ -144,16 +191,19 @@ void map_range(NodeContext& c) {
         return;
     }
     const Ref3 x = c.vector("Vector"), a = c.vector("From_Min_FLOAT3"), b = c.vector("From_Max_FLOAT3", {1, 1, 1});
-    const Ref3 p = c.vector("To_Min_FLOAT3"), q = c.vector("To_Max_FLOAT3", {1, 1, 1}), s = c.vector("Steps_FLOAT3", {4, 4, 4});
+    const Ref3 p = c.vector("To_Min_FLOAT3"), q = c.vector("To_Max_FLOAT3", {1, 1, 1}),
+               s = c.vector("Steps_FLOAT3", {4, 4, 4});
     const bool clamp = c.flag("clamp", true);
-    c.vector_out("Vector", {map_one(c.b, type, x.x, {a.x, b.x, p.x, q.x, s.x}, clamp), map_one(c.b, type, x.y, {a.y, b.y, p.y, q.y, s.y}, clamp),
+    c.vector_out("Vector", {map_one(c.b, type, x.x, {a.x, b.x, p.x, q.x, s.x}, clamp),
+                            map_one(c.b, type, x.y, {a.y, b.y, p.y, q.y, s.y}, clamp),
                             map_one(c.b, type, x.z, {a.z, b.z, p.z, q.z, s.z}, clamp)});
 }
 
 void clamp_node(NodeContext& c) {
     const Ref x = c.number("Value", 1), low = c.number("Min", 0), high = c.number("Max", 1);
     const bool range = c.text("clamp_type", "MINMAX") == "RANGE";
-    c.number_out("Result", c.b.emit(Op::clamp, {x, range ? c.b.minimum(low, high) : low, range ? c.b.maximum(low, high) : high}));
+    c.number_out("Result",
+                 c.b.emit(Op::clamp, {x, range ? c.b.minimum(low, high) : low, range ? c.b.maximum(low, high) : high}));
 }
 
 constexpr NodeType k_nodes[] = {

@@ -13,8 +13,8 @@ using bsdf::LobeKind;
 
 /// Colours and weights that several lobes of version 1 share.
 struct V1 {
-    Ref3 base;           ///< base colour
-    Ref3 tint;           ///< base colour at luminance 1
+    Ref3 base;  ///< base colour
+    Ref3 tint;  ///< base colour at luminance 1
     Ref3 normal;
     Ref roughness, metallic, transmission, specular_tint;
     Ref diffuse_weight;  ///< share of neither metal nor glass
@@ -29,9 +29,11 @@ Ref3 hue_of(NodeContext& c, Ref3 color, Ref luminance) {
 
 void v1_diffuse(NodeContext& c, const V1& p, Ref weight) {
     const Ref subsurface = c.b.saturate(c.number("Subsurface", 0));
-    const Ref3 color = c.b.is(subsurface, 0) ? p.base : c.b.mix(p.base, c.color("Subsurface Color", {0.8f, 0.8f, 0.8f}), subsurface);
+    const Ref3 color =
+        c.b.is(subsurface, 0) ? p.base : c.b.mix(p.base, c.color("Subsurface Color", {0.8f, 0.8f, 0.8f}), subsurface);
     const Ref w = c.b.multiply(weight, p.diffuse_weight);
-    c.simple_lobe(LobeKind::burley, c.b.multiply(c.b.maximum(color, c.b.constant(0)), w), p.normal, p.roughness, false, color);
+    c.simple_lobe(LobeKind::burley, c.b.multiply(c.b.maximum(color, c.b.constant(0)), w), p.normal, p.roughness, false,
+                  color);
     const Ref sheen = c.b.maximum(c.number("Sheen", 0), c.b.constant(0));
     if (c.b.is(sheen, 0)) return;
     const Ref3 hue = hue_of(c, p.base, c.b.luminance(p.base));
@@ -59,7 +61,8 @@ void v1_specular(NodeContext& c, const V1& p, Ref weight) {
     }
     const Ref gray = c.b.dot(p.base, c.b.constant(Float3{0.3f, 0.6f, 0.1f}));
     const Ref3 tint = c.b.mix(c.b.constant(Float3{1, 1, 1}), hue_of(c, p.base, gray), p.specular_tint);
-    l.f0 = c.b.add(c.b.multiply(c.b.multiply(tint, reflectance), c.b.one_minus(p.metallic)), c.b.multiply(p.base, p.metallic));
+    l.f0 = c.b.add(c.b.multiply(c.b.multiply(tint, reflectance), c.b.one_minus(p.metallic)),
+                   c.b.multiply(p.base, p.metallic));
     l.preserve_energy = p.multi_ggx && !(c.b.is_constant(p.roughness) && c.b.value(p.roughness) <= 0.075f);
     c.ggx_lobe(l);
 }
@@ -73,7 +76,8 @@ void v1_transmission(NodeContext& c, const V1& p, Ref weight) {
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
     l.alpha_x = l.alpha_y = c.b.multiply(p.roughness, p.roughness);
     const Ref3 front = c.b.mix(c.b.constant(Float3{1, 1, 1}), p.base, p.specular_tint);
-    const bool smooth = c.b.is_constant(p.roughness) && c.b.value(p.roughness) <= 0.05f && c.b.is(c.number("Transmission Roughness", 0), 0);
+    const bool smooth = c.b.is_constant(p.roughness) && c.b.value(p.roughness) <= 0.05f &&
+                        c.b.is(c.number("Transmission Roughness", 0), 0);
     if (c.b.is(front, 1) && (smooth || p.multi_ggx)) {
         l.kind = LobeKind::ggx_glass;
         l.fresnel = Fresnel::dielectric;
@@ -90,7 +94,8 @@ void v1_transmission(NodeContext& c, const V1& p, Ref weight) {
     l.f0 = front;
     c.ggx_lobe(l);
     Ref rough = p.roughness;
-    if (!p.multi_ggx) rough = c.b.one_minus(c.b.multiply(c.b.one_minus(rough), c.b.one_minus(c.number("Transmission Roughness", 0))));
+    if (!p.multi_ggx)
+        rough = c.b.one_minus(c.b.multiply(c.b.one_minus(rough), c.b.one_minus(c.number("Transmission Roughness", 0))));
     l.kind = LobeKind::ggx_refraction;
     l.fresnel = Fresnel::none;
     l.weight = c.b.multiply(c.b.multiply(w, p.base), c.b.maximum(c.b.one_minus(f), c.b.constant(0.0001f)));
@@ -136,7 +141,7 @@ void principled_v1(NodeContext& c, Ref weight) {
 // ---------------------------------------------------------------------------------------------------- version 2
 
 struct V2 {
-    Ref3 weight;         ///< what the layers above leave
+    Ref3 weight;  ///< what the layers above leave
     Ref3 base, clamped_base, specular_tint;
     Ref3 normal;
     Ref roughness, alpha_x, alpha_y;
@@ -152,7 +157,8 @@ void v2_sheen(NodeContext& c, V2& p, Ref coat_weight) {
     const Ref3 mixed = c.b.normalize(c.b.mix(n, c.vector_or("Coat Normal", c.normal()), c.b.saturate(coat_weight)));
     const Ref3 tint = c.b.maximum(c.color("Sheen Tint", {1, 1, 1}), c.b.constant(0));
     const Ref3 w = c.b.multiply(c.b.multiply(p.weight, tint), sheen);
-    p.weight = c.b.multiply(p.weight, c.sheen_lobe(w, mixed, c.b.saturate(c.number("Sheen Roughness", 0.5f)), p.weight));
+    p.weight =
+        c.b.multiply(p.weight, c.sheen_lobe(w, mixed, c.b.saturate(c.number("Sheen Roughness", 0.5f)), p.weight));
 }
 
 void v2_coat(NodeContext& c, V2& p, Ref coat) {
@@ -293,7 +299,8 @@ void principled(NodeContext& c, Ref weight) {
 
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeBsdfPrincipled", nullptr, principled, Support::approximated,
-     "both versions; subsurface is a diffuse lobe of the subsurface colour, version 1's clearcoat is GGX (Cycles: GTR1), no thin film"},
+     "both versions; subsurface is a diffuse lobe of the subsurface colour, version 1's clearcoat is GGX (Cycles: "
+     "GTR1), no thin film"},
 };
 
 }  // namespace

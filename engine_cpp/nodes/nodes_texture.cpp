@@ -6,7 +6,9 @@ namespace cardioid::nodes {
 
 namespace {
 
-Ref3 scaled_point(NodeContext& c, float scale) { return c.b.multiply(texture_point(c, TextureDefault::generated), c.number("Scale", scale)); }
+Ref3 scaled_point(NodeContext& c, float scale) {
+    return c.b.multiply(texture_point(c, TextureDefault::generated), c.number("Scale", scale));
+}
 
 std::uint32_t dimensions(NodeContext& c, const char* property, const char* fallback) {
     const std::string d = c.text(property, fallback);
@@ -34,13 +36,22 @@ void checker(NodeContext& c) {
 void brick(NodeContext& c) {
     Builder& b = c.b;
     const Ref3 p = scaled_point(c, 5);
-    const auto number = [&](const char* name, double fallback) { return static_cast<float>(c.property(name, fallback)); };
-    const float pattern[] = {number("offset", 0.5), number("offset_frequency", 2), number("squash", 1), number("squash_frequency", 2)};
-    const Results r = b.emit_all(Op::brick, {p.x, p.y, p.z, c.number("Mortar Size", 0.02f), c.number("Mortar Smooth", 0), c.number("Bias", 0),
-                                             c.number("Brick Width", 0.5f), c.number("Row Height", 0.25f)}, 0, b.add_data(pattern));
-    const Ref3 bricks = Builder::each(c.color("Color1", {0.8f, 0.8f, 0.8f}), c.color("Color2", {0.2f, 0.2f, 0.2f}),
-                                      [&](Ref x, Ref y) { return b.emit(Op::blend, {x, y, r[0]}); });
-    c.color_out("Color", Builder::each(bricks, c.color("Mortar"), [&](Ref x, Ref y) { return b.emit(Op::blend, {x, y, r[1]}); }));
+    const auto number = [&](const char* name, double fallback) {
+        return static_cast<float>(c.property(name, fallback));
+    };
+    const float pattern[] = {number("offset", 0.5), number("offset_frequency", 2), number("squash", 1),
+                             number("squash_frequency", 2)};
+    const Results r = b.emit_all(Op::brick,
+                                 {p.x, p.y, p.z, c.number("Mortar Size", 0.02f), c.number("Mortar Smooth", 0),
+                                  c.number("Bias", 0), c.number("Brick Width", 0.5f), c.number("Row Height", 0.25f)},
+                                 0, b.add_data(pattern));
+    const Ref3 bricks =
+        Builder::each(c.color("Color1", {0.8f, 0.8f, 0.8f}), c.color("Color2", {0.2f, 0.2f, 0.2f}), [&](Ref x, Ref y) {
+            return b.emit(Op::blend, {x, y, r[0]});
+        });
+    c.color_out("Color", Builder::each(bricks, c.color("Mortar"), [&](Ref x, Ref y) {
+                    return b.emit(Op::blend, {x, y, r[1]});
+                }));
     c.number_out("Fac", r[1]);
 }
 
@@ -104,9 +115,12 @@ void noise(NodeContext& c) {
     // Before 4.0 there is no lacunarity, and roughness ends at 1.
     const Ref rough = c.number("Roughness", 0.5f);
     const Ref roughness = c.has("Lacunarity") ? b.maximum(rough, b.constant(0)) : b.saturate(rough);
-    const std::uint32_t flags = (c.flag("normalize", true) ? noise_normalize : 0u) | (c.used("Color") ? noise_color : 0u);
-    const Results r = b.emit_all(Op::noise, {p.x, p.y, p.z, p.w, detail, roughness, c.number("Lacunarity", 2), c.number("Offset", 0), c.number("Gain", 1),
-                                             c.number("Distortion", 0)}, noise_mode(d, noise_type(c.text("noise_type", "FBM")), flags));
+    const std::uint32_t flags =
+        (c.flag("normalize", true) ? noise_normalize : 0u) | (c.used("Color") ? noise_color : 0u);
+    const Results r = b.emit_all(Op::noise,
+                                 {p.x, p.y, p.z, p.w, detail, roughness, c.number("Lacunarity", 2),
+                                  c.number("Offset", 0), c.number("Gain", 1), c.number("Distortion", 0)},
+                                 noise_mode(d, noise_type(c.text("noise_type", "FBM")), flags));
     c.number_out("Fac", r[0]);
     c.color_out("Color", {r[0], r[1], r[2]});
 }
@@ -121,8 +135,10 @@ void musgrave(NodeContext& c) {
     const Ref dimension = b.maximum(c.number("Dimension", 2), small);
     const Ref roughness = b.emit(Op::power, {lacunarity, b.multiply(dimension, b.constant(-1))});
     const NoiseType type = noise_type(c.text("musgrave_type", "FBM"));
-    const Results r = b.emit_all(Op::noise, {p.x, p.y, p.z, p.w, octaves, roughness, lacunarity, c.number("Offset", 0), c.number("Gain", 1), zero},
-                                 noise_mode(d, type, noise_musgrave));
+    const Results r = b.emit_all(
+        Op::noise,
+        {p.x, p.y, p.z, p.w, octaves, roughness, lacunarity, c.number("Offset", 0), c.number("Gain", 1), zero},
+        noise_mode(d, type, noise_musgrave));
     c.number_out("Fac", r[0]);
 }
 
@@ -145,13 +161,16 @@ Ref wave_place(NodeContext& c, Ref3 p) {
 void wave(NodeContext& c) {
     Builder& b = c.b;
     const Ref one = b.constant(1), half = b.constant(0.5f), zero = b.constant(0);
-    const Ref3 p = Builder::each(scaled_point(c, 5), [&](Ref x) { return b.multiply(b.add(x, b.constant(0.000001f)), b.constant(0.999999f)); });
+    const Ref3 p = Builder::each(
+        scaled_point(c, 5), [&](Ref x) { return b.multiply(b.add(x, b.constant(0.000001f)), b.constant(0.999999f)); });
     Ref n = b.add(wave_place(c, p), c.number("Phase Offset", 0));
     const Ref distortion = c.number("Distortion", 0);
     if (!b.is(distortion, 0)) {
         const Ref3 q = b.multiply(p, c.number("Detail Scale", 1));
         const Ref detail = b.emit(Op::clamp, {c.number("Detail", 2), zero, b.constant(15)});
-        const Ref f = b.emit(Op::noise, {q.x, q.y, q.z, zero, detail, b.saturate(c.number("Detail Roughness", 0.5f)), b.constant(2), zero, one, zero},
+        const Ref f = b.emit(Op::noise,
+                             {q.x, q.y, q.z, zero, detail, b.saturate(c.number("Detail Roughness", 0.5f)),
+                              b.constant(2), zero, one, zero},
                              noise_mode(3, NoiseType::fbm, noise_normalize));
         n = b.add(n, b.multiply(distortion, b.subtract(b.multiply(f, b.constant(2)), one)));
     }
@@ -161,8 +180,9 @@ void wave(NodeContext& c) {
         f = b.add(half, b.multiply(half, b.emit(Op::sine, {b.subtract(n, b.constant(1.5707963267948966f))})));
     } else {
         const Ref turns = b.multiply(n, b.constant(0.15915494309f));
-        f = profile == "SAW" ? b.emit(Op::fraction, {turns})
-                             : b.multiply(b.emit(Op::absolute, {b.subtract(turns, b.emit(Op::round, {turns}))}), b.constant(2));
+        f = profile == "SAW"
+                ? b.emit(Op::fraction, {turns})
+                : b.multiply(b.emit(Op::absolute, {b.subtract(turns, b.emit(Op::round, {turns}))}), b.constant(2));
     }
     c.color_out("Color", b.broadcast(f));
     c.number_out("Fac", f);
@@ -185,7 +205,8 @@ void voronoi(NodeContext& c) {
     Builder& b = c.b;
     const std::uint32_t d = dimensions(c, "voronoi_dimensions", "3D");
     const Ref scale = c.number("Scale", 5), zero = b.constant(0), one = b.constant(1);
-    const Point4 p = point4(c, d, b.multiply(texture_point(c, TextureDefault::generated), scale), b.multiply(c.number("W"), scale));
+    const Point4 p =
+        point4(c, d, b.multiply(texture_point(c, TextureDefault::generated), scale), b.multiply(c.number("W"), scale));
     const CellFeature feature = cell_feature(c.text("feature", "F1"));
     std::uint32_t mode = d | static_cast<std::uint32_t>(feature) << cell_feature_shift;
     mode |= static_cast<std::uint32_t>(cell_metric(c.text("distance", "EUCLIDEAN"))) << cell_metric_shift;
@@ -194,9 +215,13 @@ void voronoi(NodeContext& c) {
     if (c.used("Color")) mode |= cell_color;
     // Before 4.0 there is no detail.
     const Ref detail = b.emit(Op::clamp, {c.number("Detail", 0), zero, b.constant(15)});
-    const Ref smoothness = b.emit(Op::clamp, {b.multiply(c.number("Smoothness", 1), b.constant(0.5f)), zero, b.constant(0.5f)});
-    const Results r = b.emit_all(Op::voronoi, {p.x, p.y, p.z, p.w, detail, b.saturate(c.number("Roughness", 0.5f)), c.number("Lacunarity", 2), smoothness,
-                                               c.number("Exponent", 0.5f), b.saturate(c.number("Randomness", 1)), feature == CellFeature::radius ? one : scale}, mode);
+    const Ref smoothness =
+        b.emit(Op::clamp, {b.multiply(c.number("Smoothness", 1), b.constant(0.5f)), zero, b.constant(0.5f)});
+    const Results r = b.emit_all(Op::voronoi,
+                                 {p.x, p.y, p.z, p.w, detail, b.saturate(c.number("Roughness", 0.5f)),
+                                  c.number("Lacunarity", 2), smoothness, c.number("Exponent", 0.5f),
+                                  b.saturate(c.number("Randomness", 1)), feature == CellFeature::radius ? one : scale},
+                                 mode);
     c.number_out("Distance", r[0]);
     c.number_out("Radius", r[0]);
     c.color_out("Color", {r[1], r[2], r[3]});
@@ -212,7 +237,8 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeTexWhiteNoise", white_noise, nullptr, Support::same, ""},
     {"ShaderNodeTexNoise", noise, nullptr, Support::same, "all types of 4.1 and later, and the noise of 3.4"},
     {"ShaderNodeTexMusgrave", musgrave, nullptr, Support::same, ""},
-    {"ShaderNodeTexVoronoi", voronoi, nullptr, Support::same, "with the octaves of 4.0 and later; the hash of 5.0 where params[\"version\"] is 2"},
+    {"ShaderNodeTexVoronoi", voronoi, nullptr, Support::same,
+     "with the octaves of 4.0 and later; the hash of 5.0 where params[\"version\"] is 2"},
     {"ShaderNodeTexWave", wave, nullptr, Support::same, ""},
 };
 

@@ -15,7 +15,8 @@ Rotation euler(NodeContext& c, Ref3 angles) {
     Builder& b = c.b;
     const auto cosine = [&](Ref a) { return b.emit(Op::cosine, {a}); };
     const auto sine = [&](Ref a) { return b.emit(Op::sine, {a}); };
-    const Ref cx = cosine(angles.x), cy = cosine(angles.y), cz = cosine(angles.z), sx = sine(angles.x), sy = sine(angles.y), sz = sine(angles.z);
+    const Ref cx = cosine(angles.x), cy = cosine(angles.y), cz = cosine(angles.z), sx = sine(angles.x),
+              sy = sine(angles.y), sz = sine(angles.z);
     const auto m = [&](Ref x, Ref y) { return b.multiply(x, y); };
     Rotation r;
     r.row[0] = {m(cy, cz), b.subtract(m(m(sy, sx), cz), m(cx, sz)), b.add(m(m(sy, cx), cz), m(sx, sz))};
@@ -25,12 +26,16 @@ Rotation euler(NodeContext& c, Ref3 angles) {
 }
 
 Ref3 turn(NodeContext& c, const Rotation& r, Ref3 v) {
-    const auto row = [&](Ref3 a) { return c.b.add(c.b.add(c.b.multiply(a.x, v.x), c.b.multiply(a.y, v.y)), c.b.multiply(a.z, v.z)); };
+    const auto row = [&](Ref3 a) {
+        return c.b.add(c.b.add(c.b.multiply(a.x, v.x), c.b.multiply(a.y, v.y)), c.b.multiply(a.z, v.z));
+    };
     return {row(r.row[0]), row(r.row[1]), row(r.row[2])};
 }
 
 Rotation transposed(const Rotation& r) {
-    return {{{r.row[0].x, r.row[1].x, r.row[2].x}, {r.row[0].y, r.row[1].y, r.row[2].y}, {r.row[0].z, r.row[1].z, r.row[2].z}}};
+    return {{{r.row[0].x, r.row[1].x, r.row[2].x},
+             {r.row[0].y, r.row[1].y, r.row[2].y},
+             {r.row[0].z, r.row[1].z, r.row[2].z}}};
 }
 
 Ref3 divided(NodeContext& c, Ref3 a, Ref3 b) {
@@ -42,10 +47,14 @@ void mapping(NodeContext& c) {
     const Ref3 v = c.vector("Vector"), location = c.vector("Location"), scale = c.vector("Scale", {1, 1, 1});
     const Rotation r = euler(c, c.vector("Rotation"));
     const std::string type = c.text("vector_type", "POINT");
-    if (type == "TEXTURE") c.vector_out("Vector", divided(c, turn(c, transposed(r), b.subtract(v, location)), scale));
-    else if (type == "VECTOR") c.vector_out("Vector", turn(c, r, b.multiply(v, scale)));
-    else if (type == "NORMAL") c.vector_out("Vector", b.normalize(turn(c, r, divided(c, v, scale))));
-    else c.vector_out("Vector", b.add(turn(c, r, b.multiply(v, scale)), location));
+    if (type == "TEXTURE")
+        c.vector_out("Vector", divided(c, turn(c, transposed(r), b.subtract(v, location)), scale));
+    else if (type == "VECTOR")
+        c.vector_out("Vector", turn(c, r, b.multiply(v, scale)));
+    else if (type == "NORMAL")
+        c.vector_out("Vector", b.normalize(turn(c, r, divided(c, v, scale))));
+    else
+        c.vector_out("Vector", b.add(turn(c, r, b.multiply(v, scale)), location));
 }
 
 void vector_rotate(NodeContext& c) {
@@ -60,7 +69,8 @@ void vector_rotate(NodeContext& c) {
         return;
     }
     const Ref angle = b.multiply(c.number("Angle"), b.constant(invert ? -1.0f : 1.0f));
-    Ref3 axis = b.constant(Float3{static_cast<float>(type == "X_AXIS"), static_cast<float>(type == "Y_AXIS"), static_cast<float>(type == "Z_AXIS")});
+    Ref3 axis = b.constant(Float3{static_cast<float>(type == "X_AXIS"), static_cast<float>(type == "Y_AXIS"),
+                                  static_cast<float>(type == "Z_AXIS")});
     if (type == "AXIS_ANGLE") axis = c.vector("Axis", {0, 0, 1});
     // Without an axis nothing turns.
     const Ref length = b.length(axis);
@@ -69,13 +79,16 @@ void vector_rotate(NodeContext& c) {
 }
 
 void vector_transform(NodeContext& c) {
-    const std::string type = c.text("vector_type", "VECTOR"), from = c.text("convert_from", "WORLD"), to = c.text("convert_to", "OBJECT");
+    const std::string type = c.text("vector_type", "VECTOR"), from = c.text("convert_from", "WORLD"),
+                      to = c.text("convert_to", "OBJECT");
     const Quantity q = type == "POINT" ? Quantity::point : Quantity::vector;
     const auto space = [](const std::string& name) { return name == "CAMERA" ? Space::camera : Space::object; };
     Ref3 v = c.vector("Vector", {0.5f, 0.5f, 0.5f});
     if (from != to) {
-        if (from != "WORLD") v = c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space(from), q, Direction::to_world));
-        if (to != "WORLD") v = c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space(to), q, Direction::from_world));
+        if (from != "WORLD")
+            v = c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space(from), q, Direction::to_world));
+        if (to != "WORLD")
+            v = c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space(to), q, Direction::from_world));
     }
     c.vector_out("Vector", type == "NORMAL" ? c.b.normalize(v) : v);
 }
@@ -90,7 +103,9 @@ void normal(NodeContext& c) {
 
 /// Turned over on the back of a surface.
 Ref3 sided(NodeContext& c, Ref3 v) {
-    return Builder::each(v, [&](Ref x) { return c.b.select_positive(c.b.chunk(ChunkRow::backfacing), c.b.multiply(x, c.b.constant(-1)), x); });
+    return Builder::each(v, [&](Ref x) {
+        return c.b.select_positive(c.b.chunk(ChunkRow::backfacing), c.b.multiply(x, c.b.constant(-1)), x);
+    });
 }
 
 Ref3 transformed(NodeContext& c, Ref3 v, Quantity quantity, Direction direction) {
@@ -99,7 +114,8 @@ Ref3 transformed(NodeContext& c, Ref3 v, Quantity quantity, Direction direction)
 
 /// Tangent of a UV map for an object-space normal, with the sign of the bitangent.
 Results uv_tangent(NodeContext& c, const std::string& name, Ref3 normal) {
-    return c.b.emit_all(Op::uv_tangent, {normal.x, normal.y, normal.z}, c.attribute_id(name.empty() ? k_active_uv : name));
+    return c.b.emit_all(Op::uv_tangent, {normal.x, normal.y, normal.z},
+                        c.attribute_id(name.empty() ? k_active_uv : name));
 }
 
 /// A tangent-space colour in world space, seen from the front of the surface.
@@ -108,7 +124,8 @@ Ref3 tangent_mapped(NodeContext& c, Ref3 color, Ref3 n) {
     const Ref3 front = sided(c, n), local = transformed(c, front, Quantity::normal, Direction::from_world);
     const Results t = uv_tangent(c, c.text("uv_map"), local);
     const Ref3 tangent = {t[0], t[1], t[2]}, bitangent = b.multiply(b.cross(local, tangent), t[3]);
-    const Ref3 sum = b.add(b.add(b.multiply(tangent, color.x), b.multiply(bitangent, color.y)), b.multiply(local, color.z));
+    const Ref3 sum =
+        b.add(b.add(b.multiply(tangent, color.x), b.multiply(bitangent, color.y)), b.multiply(local, color.z));
     // Where the mesh has no such map the normal stays.
     const Ref have = b.emit(Op::absolute, {t[3]});
     return Builder::each(transformed(c, sum, Quantity::normal, Direction::to_world), front,
@@ -119,13 +136,15 @@ void normal_map(NodeContext& c) {
     Builder& b = c.b;
     const std::string space = c.text("space", "TANGENT");
     const Ref half = b.constant(0.5f), two = b.constant(2);
-    Ref3 color = Builder::each(c.color("Color", {0.5f, 0.5f, 1}), [&](Ref x) { return b.multiply(b.subtract(x, half), two); });
+    Ref3 color =
+        Builder::each(c.color("Color", {0.5f, 0.5f, 1}), [&](Ref x) { return b.multiply(b.subtract(x, half), two); });
     const Ref3 n = c.normal();
     Ref3 mapped;
     if (space == "TANGENT") {
         mapped = tangent_mapped(c, color, n);
     } else {
-        if (space.starts_with("BLENDER")) color = {color.x, b.multiply(color.y, b.constant(-1)), b.multiply(color.z, b.constant(-1))};
+        if (space.starts_with("BLENDER"))
+            color = {color.x, b.multiply(color.y, b.constant(-1)), b.multiply(color.z, b.constant(-1))};
         const bool object = space == "OBJECT" || space == "BLENDER_OBJECT";
         mapped = object ? transformed(c, color, Quantity::normal, Direction::to_world) : b.normalize(color);
     }
@@ -143,7 +162,8 @@ void bump(NodeContext& c) {
         return;
     }
     const Ref distance = b.multiply(c.number("Distance", 1), b.constant(c.flag("invert") ? -1.0f : 1.0f));
-    const Ref height = c.number_at("Height", Shift::none, 1), x = c.number_at("Height", Shift::x, 1), y = c.number_at("Height", Shift::y, 1);
+    const Ref height = c.number_at("Height", Shift::none, 1), x = c.number_at("Height", Shift::x, 1),
+              y = c.number_at("Height", Shift::y, 1);
     const Ref3 tilted = bumped(c, n, b.subtract(x, height), b.subtract(y, height), c.number("Strength", 1), distance);
     c.vector_out("Normal", b.emit3(Op::bend_normal, {tilted.x, tilted.y, tilted.z}));
 }
@@ -151,7 +171,8 @@ void bump(NodeContext& c) {
 void tangent(NodeContext& c) {
     Builder& b = c.b;
     if (c.text("direction_type", "RADIAL") == "UV_MAP") {
-        const Results t = uv_tangent(c, c.text("uv_map"), transformed(c, sided(c, c.normal()), Quantity::normal, Direction::from_world));
+        const Results t = uv_tangent(c, c.text("uv_map"),
+                                     transformed(c, sided(c, c.normal()), Quantity::normal, Direction::from_world));
         c.vector_out("Tangent", tangent_around(c, {t[0], t[1], t[2]}));
         return;
     }
@@ -183,10 +204,13 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeVectorRotate", vector_rotate, nullptr, Support::same, ""},
     {"ShaderNodeVectorTransform", vector_transform, nullptr, Support::same, ""},
     {"ShaderNodeNormal", normal, nullptr, Support::same, ""},
-    {"ShaderNodeNormalMap", normal_map, nullptr, Support::approximated, "tangents are those of the triangle, not smoothed over its neighbours"},
-    {"ShaderNodeBump", bump, nullptr, Support::approximated, "the step is a pixel's width at the point; no filter width"},
+    {"ShaderNodeNormalMap", normal_map, nullptr, Support::approximated,
+     "tangents are those of the triangle, not smoothed over its neighbours"},
+    {"ShaderNodeBump", bump, nullptr, Support::approximated,
+     "the step is a pixel's width at the point; no filter width"},
     {"ShaderNodeTangent", tangent, nullptr, Support::approximated, "UV tangents are those of the triangle"},
-    {"ShaderNodeDisplacement", displacement, nullptr, Support::approximated, "as bump mapping: the surface does not move"},
+    {"ShaderNodeDisplacement", displacement, nullptr, Support::approximated,
+     "as bump mapping: the surface does not move"},
 };
 
 }  // namespace

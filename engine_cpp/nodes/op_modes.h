@@ -11,11 +11,19 @@ enum LobeBits : std::uint32_t {
     lobe_kind_mask = 0xf,
     lobe_fresnel_shift = 4,
     lobe_preserve_energy = 1u << 8,
-    lobe_keep = 1u << 9,        ///< false: only its result is wanted (emission under a coat)
-    lobe_layer = 1u << 10,      ///< the result is read
+    lobe_keep = 1u << 9,    ///< false: only its result is wanted (emission under a coat)
+    lobe_layer = 1u << 10,  ///< the result is read
 };
 
-enum class InstanceValue : std::uint32_t { location, color, random, pass_index, dupli_generated, dupli_uv, material_index };
+enum class InstanceValue : std::uint32_t {
+    location,
+    color,
+    random,
+    pass_index,
+    dupli_generated,
+    dupli_uv,
+    material_index
+};
 
 /// imm of object_point: space | quantity << 4 | direction << 8.
 enum class Space : std::uint32_t { object, camera, generated };
@@ -35,8 +43,8 @@ enum NoiseMode : std::uint32_t {
     noise_dimension_mask = 7,
     noise_type_shift = 4,
     noise_normalize = 1u << 8,
-    noise_musgrave = 1u << 9,   ///< octaves are counted from 0, not from 1
-    noise_color = 1u << 10,     ///< the second and third result are wanted
+    noise_musgrave = 1u << 9,  ///< octaves are counted from 0, not from 1
+    noise_color = 1u << 10,    ///< the second and third result are wanted
 };
 
 enum class CellFeature : std::uint32_t { f1, f2, smooth_f1, edge, radius };
@@ -48,13 +56,25 @@ enum CellMode : std::uint32_t {
     cell_feature_shift = 4,
     cell_metric_shift = 8,
     cell_normalize = 1u << 12,
-    cell_pcg = 1u << 13,        ///< the hash of Blender 5.0 and later
-    cell_color = 1u << 14,      ///< the colour is wanted
+    cell_pcg = 1u << 13,    ///< the hash of Blender 5.0 and later
+    cell_color = 1u << 14,  ///< the colour is wanted
 };
 
 enum class RayValue : std::uint32_t {
-    is_camera, is_shadow, is_diffuse, is_glossy, is_singular, is_reflection, is_transmission, is_volume,
-    length, depth, diffuse_depth, glossy_depth, transparent_depth, transmission_depth,
+    is_camera,
+    is_shadow,
+    is_diffuse,
+    is_glossy,
+    is_singular,
+    is_reflection,
+    is_transmission,
+    is_volume,
+    length,
+    depth,
+    diffuse_depth,
+    glossy_depth,
+    transparent_depth,
+    transmission_depth,
 };
 
 }  // namespace cardioid::nodes

@@ -14,15 +14,15 @@ enum class Op : std::uint16_t {
 };
 
 enum class OpKind : std::uint8_t {
-    pure,     ///< a function of operands, imm and data: folded when the operands are constant, merged when equal
-    reads,    ///< reads the chunk, the scene or images too: merged, never folded
-    effect,   ///< writes the SurfaceOutput
+    pure,    ///< a function of operands, imm and data: folded when the operands are constant, merged when equal
+    reads,   ///< reads the chunk, the scene or images too: merged, never folded
+    effect,  ///< writes the SurfaceOutput
 };
 
 struct OpInfo {
     const char* name;
-    int args;      ///< rows read
-    int results;   ///< rows written
+    int args;     ///< rows read
+    int results;  ///< rows written
     OpKind kind;
 };
 const OpInfo& op_info(Op op);

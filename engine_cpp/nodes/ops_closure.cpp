@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closures: what a program leaves in the SurfaceOutput.
-#include "bsdf/kernels.h"
 #include "bsdf/bend_normal.h"
+#include "bsdf/kernels.h"
 #include "nodes/kernel.h"
 
 namespace cardioid::CD_ISA_NS {

@@ -46,13 +46,15 @@ Vec3 rgb_to_hsl(Vec3 c) {
     const Float s = delta / select(grey, Float(1.0f), select(l > Float(0.5f), 2.0f - high - low, sum));
     const Float d = select(grey, Float(1.0f), delta);
     const Float red = (c.y - c.z) / d + select(c.y < c.z, Float(6.0f), Float(0.0f));
-    const Float h = select(high == c.x, red, select(high == c.y, (c.z - c.x) / d + 2.0f, (c.x - c.y) / d + 4.0f)) * (1.0f / 6.0f);
+    const Float h =
+        select(high == c.x, red, select(high == c.y, (c.z - c.x) / d + 2.0f, (c.x - c.y) / d + 4.0f)) * (1.0f / 6.0f);
     return {select(grey, Float(0.0f), h), select(grey, Float(0.0f), s), l};
 }
 
 Vec3 hsl_to_rgb(Vec3 c) {
     const Float h = c.x * 6.0f, l = c.z;
-    const Float r = saturate(abs(h - 3.0f) - 1.0f), g = saturate(2.0f - abs(h - 2.0f)), b = saturate(2.0f - abs(h - 4.0f));
+    const Float r = saturate(abs(h - 3.0f) - 1.0f), g = saturate(2.0f - abs(h - 2.0f)),
+                b = saturate(2.0f - abs(h - 4.0f));
     const Float chroma = (1.0f - abs(2.0f * l - 1.0f)) * c.y;
     return {(r - 0.5f) * chroma + l, (g - 0.5f) * chroma + l, (b - 0.5f) * chroma + l};
 }
@@ -82,7 +84,8 @@ void op_mix_overlay(const Machine& m, const Instruction& in) {
     });
 }
 void op_mix_divide(const Machine& m, const Instruction& in) {
-    map3(m, in, [](Float a, Float b, Float t) { return select(b != Float(0.0f), (1.0f - t) * a + t * safe_divide(a, b), a); });
+    map3(m, in,
+         [](Float a, Float b, Float t) { return select(b != Float(0.0f), (1.0f - t) * a + t * safe_divide(a, b), a); });
 }
 void op_mix_dodge(const Machine& m, const Instruction& in) {
     map3(m, in, [](Float a, Float b, Float t) {
@@ -128,7 +131,8 @@ void op_curve(const Machine& m, const Instruction& in) {
         if (in.imm != 0) {
             const float steps = static_cast<float>(n - 1);
             y = select(x < Float(0.0f), Float(table[0]) + Float(table[1] - table[0]) * x * steps, y);
-            y = select(x > Float(1.0f), Float(table[n - 1]) + Float(table[n - 1] - table[n - 2]) * (x - 1.0f) * steps, y);
+            y = select(x > Float(1.0f), Float(table[n - 1]) + Float(table[n - 1] - table[n - 2]) * (x - 1.0f) * steps,
+                       y);
         }
         store(m.dst(in) + i, y);
     }
@@ -144,7 +148,8 @@ void op_blackbody(const Machine& m, const Instruction& in) {
         for (const float limit : k_limits) range = select(t >= Float(limit), range + Int(1), range);
         const Int at = range * Int(10);
         const auto c = [&](int k) { return gather(data + k, at); };
-        Vec3 rgb = {c(0) * inv + c(1) * t + c(2), c(3) * inv + c(4) * t + c(5), ((c(6) * t + c(7)) * t + c(8)) * t + c(9)};
+        Vec3 rgb = {c(0) * inv + c(1) * t + c(2), c(3) * inv + c(4) * t + c(5),
+                    ((c(6) * t + c(7)) * t + c(8)) * t + c(9)};
         rgb = select(t >= Float(12000.0f), Vec3{0.8262954810464208f, 0.9945080501520986f, 1.566307710274283f}, rgb);
         rgb = select(t < Float(800.0f), Vec3{5.413294490189271f, -0.20319390035873933f, -0.0822535242887164f}, rgb);
         return Vec3{max(rgb.x, 0.0f), max(rgb.y, 0.0f), max(rgb.z, 0.0f)};

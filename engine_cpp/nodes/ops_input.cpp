@@ -27,10 +27,13 @@ Corners corner_elements(const nodes::ShadingChunk& chunk, int i, Int domain, Int
     const Int triangle = load(chunk.triangle + i);
     const Mask by_face = domain == Int(2);
     const Int first = triangle * Int(3);
-    Corners e{select(by_face, triangle, first), select(by_face, triangle, first + Int(1)), select(by_face, triangle, first + Int(2))};
+    Corners e{select(by_face, triangle, first), select(by_face, triangle, first + Int(1)),
+              select(by_face, triangle, first + Int(2))};
     const Mask by_point = domain == Int(0);
     if (none(by_point)) return e;
-    const Int base = (gather(reinterpret_cast<const std::int32_t*>(chunk.geometry->meshes), mesh * Int(k_mesh_stride)) + triangle) * Int(3);
+    const Int base =
+        (gather(reinterpret_cast<const std::int32_t*>(chunk.geometry->meshes), mesh * Int(k_mesh_stride)) + triangle) *
+        Int(3);
     e.a = select(by_point, gather(chunk.geometry->triangles, base), e.a);
     e.b = select(by_point, gather(chunk.geometry->triangles, base + Int(1)), e.b);
     e.c = select(by_point, gather(chunk.geometry->triangles, base + Int(2)), e.c);
@@ -99,7 +102,9 @@ void op_attribute(const Machine& m, const Instruction& in) {
 void op_instance_value(const Machine& m, const Instruction& in) {
     const auto value = static_cast<InstanceValue>(in.imm);
     for (int i = 0; i < m.end; i += W) {
-        const auto get = [&](std::size_t member, float fallback) { return instance_float(m.chunk, i, member, fallback); };
+        const auto get = [&](std::size_t member, float fallback) {
+            return instance_float(m.chunk, i, member, fallback);
+        };
         const auto get3 = [&](std::size_t member, float fallback) {
             return Vec3{get(member, fallback), get(member + 4, fallback), get(member + 8, fallback)};
         };
@@ -108,11 +113,19 @@ void op_instance_value(const Machine& m, const Instruction& in) {
             case InstanceValue::color:
                 store4(m, in, i, get3(offsetof(InstanceInfo, color), 1), get(offsetof(InstanceInfo, color) + 12, 1));
                 break;
-            case InstanceValue::random: store4(m, in, i, {get(offsetof(InstanceInfo, random), 0), 0.0f, 0.0f}, 1.0f); break;
-            case InstanceValue::pass_index: store4(m, in, i, {get(offsetof(InstanceInfo, pass_index), 0), 0.0f, 0.0f}, 1.0f); break;
-            case InstanceValue::dupli_generated: store4(m, in, i, get3(offsetof(InstanceInfo, dupli_generated), 0), 1.0f); break;
+            case InstanceValue::random:
+                store4(m, in, i, {get(offsetof(InstanceInfo, random), 0), 0.0f, 0.0f}, 1.0f);
+                break;
+            case InstanceValue::pass_index:
+                store4(m, in, i, {get(offsetof(InstanceInfo, pass_index), 0), 0.0f, 0.0f}, 1.0f);
+                break;
+            case InstanceValue::dupli_generated:
+                store4(m, in, i, get3(offsetof(InstanceInfo, dupli_generated), 0), 1.0f);
+                break;
             case InstanceValue::dupli_uv:
-                store4(m, in, i, {get(offsetof(InstanceInfo, dupli_uv), 0), get(offsetof(InstanceInfo, dupli_uv) + 4, 0), 0.0f}, 1.0f);
+                store4(m, in, i,
+                       {get(offsetof(InstanceInfo, dupli_uv), 0), get(offsetof(InstanceInfo, dupli_uv) + 4, 0), 0.0f},
+                       1.0f);
                 break;
             case InstanceValue::material_index:
                 store4(m, in, i, {Float(static_cast<float>(m.chunk.material_pass_index)), 0.0f, 0.0f}, 1.0f);
@@ -135,7 +148,9 @@ Vec3 to_generated(const nodes::ShadingChunk& chunk, int i, Vec3 p) {
     if (chunk.geometry == nullptr || chunk.geometry->meshes == nullptr || none(on_mesh)) return p;
     const float* base = reinterpret_cast<const float*>(chunk.geometry->meshes);
     const Int mesh = select(on_mesh, load(chunk.mesh + i), Int(0)) * Int(k_mesh_stride);
-    const auto get = [&](std::size_t member) { return gather(base, mesh + Int(static_cast<int>(member / sizeof(float)))); };
+    const auto get = [&](std::size_t member) {
+        return gather(base, mesh + Int(static_cast<int>(member / sizeof(float))));
+    };
     const auto axis = [&](Float x, std::size_t k) {
         const Float size = get(offsetof(nodes::MeshInfo, generated_size) + k);
         return (x - get(offsetof(nodes::MeshInfo, generated_min) + k)) / select(size == Float(0.0f), Float(1.0f), size);
@@ -176,7 +191,8 @@ void op_surface_step(const Machine& m, const Instruction& in) {
     for (int i = 0; i < m.end; i += W) {
         const Vec3 n = load3(m.chunk.normal_geometric, i);
         const Mask same = (n.x == n.y) & (n.x == n.z);
-        const Vec3 a = normalize(Vec3{n.z - n.y, select(same, n.x + n.z, n.x - n.z), select(same, -n.y - n.x, n.y - n.x)});
+        const Vec3 a =
+            normalize(Vec3{n.z - n.y, select(same, n.x + n.z, n.x - n.z), select(same, -n.y - n.x, n.y - n.x)});
         store_vec(m, in, 0, i, (in.imm == 0 ? a : cross(n, a)) * load(m.chunk.footprint + i));
     }
 }
@@ -205,7 +221,9 @@ void op_window(const Machine& m, const Instruction& in) {
         const Vec3 q = in.imm != 0 ? to_camera.vector(p.at(i)) : to_camera.point(p.at(i));
         const float* plane = reinterpret_cast<const float*>(&g->view_plane);
         const Float inv = g->orthographic ? Float(1.0f) : -1.0f / select(abs(q.z) > Float(1e-20f), q.z, Float(-1e-20f));
-        store_vec(m, in, 0, i, {(q.x * inv - plane[0]) / Float(plane[1] - plane[0]), (q.y * inv - plane[2]) / Float(plane[3] - plane[2]), 0.0f});
+        store_vec(m, in, 0, i,
+                  {(q.x * inv - plane[0]) / Float(plane[1] - plane[0]),
+                   (q.y * inv - plane[2]) / Float(plane[3] - plane[2]), 0.0f});
     }
 }
 
@@ -227,14 +245,16 @@ void op_uv_tangent(const Machine& m, const Instruction& in) {
         const Vec3 t = to_local.vector((load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * sign);
         const Vec3 n = normal.at(i);
         const Mask ok = uv.have & (det != Float(0.0f));
-        store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}), select(ok, sign, Float(0.0f)));
+        store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}),
+               select(ok, sign, Float(0.0f)));
     }
 }
 
 void op_ray_value(const Machine& m, const Instruction& in) {
     const auto value = static_cast<RayValue>(in.imm);
     const nodes::ShadingChunk& c = m.chunk;
-    const float* rows[] = {c.ray_length, c.ray_depth, c.diffuse_depth, c.glossy_depth, c.transparent_depth, c.transmission_depth};
+    const float* rows[] = {c.ray_length,   c.ray_depth,         c.diffuse_depth,
+                           c.glossy_depth, c.transparent_depth, c.transmission_depth};
     for (int i = 0; i < m.end; i += W) {
         if (value >= RayValue::length) {
             store(m.dst(in) + i, load(rows[static_cast<int>(value) - static_cast<int>(RayValue::length)] + i));

@@ -15,7 +15,7 @@ namespace {
 struct Fractal {
     Int whole;
     Float rest, roughness, lacunarity, offset, gain;
-    int most;      ///< the largest count of any lane
+    int most;  ///< the largest count of any lane
 
     Fractal(Float octaves, bool one_more) {
         const Float f = floor(octaves);
@@ -126,7 +126,9 @@ Float fractal(Vec4 p, const Fractal& f, NoiseType type, bool normalize) {
 template <int D>
 Vec4 seed_offset(float seed) {
     if constexpr (D == 1) return {100.0f + random(Float(seed)) * 100.0f, 0.0f, 0.0f, 0.0f};
-    const auto axis = [&](int k) { return k < D ? 100.0f + random(Float(seed), Float(static_cast<float>(k))) * 100.0f : Float(0.0f); };
+    const auto axis = [&](int k) {
+        return k < D ? 100.0f + random(Float(seed), Float(static_cast<float>(k))) * 100.0f : Float(0.0f);
+    };
     return {axis(0), axis(1), axis(2), axis(3)};
 }
 
@@ -146,7 +148,9 @@ void noise(const Machine& m, const Instruction& in) {
         f.gain = a[8].at(i);
         const Float distortion = a[9].at(i);
         if (any(distortion != Float(0.0f))) {
-            const auto shift = [&](int k) { return k < D ? perlin<D>(p + seed_offset<D>(static_cast<float>(k))) * distortion : Float(0.0f); };
+            const auto shift = [&](int k) {
+                return k < D ? perlin<D>(p + seed_offset<D>(static_cast<float>(k))) * distortion : Float(0.0f);
+            };
             p = p + Vec4{shift(0), shift(1), shift(2), shift(3)};
         }
         const Float value = fractal<D>(p, f, type, normalize);

@@ -41,7 +41,8 @@ void op_checker(const Machine& m, const Instruction& in) {
 /// Data: offset amount, offset frequency, squash amount, squash frequency. Results: tint, mortar.
 void op_brick(const Machine& m, const Instruction& in) {
     const Source3 point = m.arg3(in, 0);
-    const Source size = m.arg(in, 3), smooth = m.arg(in, 4), bias = m.arg(in, 5), width = m.arg(in, 6), height = m.arg(in, 7);
+    const Source size = m.arg(in, 3), smooth = m.arg(in, 4), bias = m.arg(in, 5), width = m.arg(in, 6),
+                 height = m.arg(in, 7);
     const float* data = m.view.data + in.data;
     for (int i = 0; i < m.end; i += W) {
         const Vec3 p = point.at(i);
@@ -60,7 +61,8 @@ void op_brick(const Machine& m, const Instruction& in) {
         const Float depth = 1.0f - safe_divide(edge, mortar_size);
         const Float t = saturate(safe_divide(depth, softness));
         const Float soft = select(depth < softness, t * t * (3.0f - 2.0f * t), Float(1.0f));
-        store(m.dst(in, 1) + i, select(edge >= mortar_size, Float(0.0f), select(softness == Float(0.0f), Float(1.0f), soft)));
+        store(m.dst(in, 1) + i,
+              select(edge >= mortar_size, Float(0.0f), select(softness == Float(0.0f), Float(1.0f), soft)));
     }
 }
 
@@ -74,7 +76,12 @@ void op_magic(const Machine& m, const Instruction& in) {
         const Float scale = scales.at(i) * 5.0f, d = distortions.at(i);
         const Float px = safe_modulo(p.x, k_two_pi), py = safe_modulo(p.y, k_two_pi), pz = safe_modulo(p.z, k_two_pi);
         Float x = sin((px + py + pz) * scale), y = cos((py - px - pz) * scale), z = -cos((pz - px - py) * scale);
-        if (depth > 0) { x *= d; y *= d; z *= d; y = -cos(x - y + z) * d; }
+        if (depth > 0) {
+            x *= d;
+            y *= d;
+            z *= d;
+            y = -cos(x - y + z) * d;
+        }
         if (depth > 1) x = cos(x - y - z) * d;
         if (depth > 2) z = sin(-x - y - z) * d;
         if (depth > 3) x = -cos(-x + y - z) * d;

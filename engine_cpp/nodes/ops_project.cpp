@@ -65,10 +65,13 @@ void op_box_weights(const Machine& m, const Instruction& in) {
         n = n * (1.0f / max(n.x + n.y + n.z, 1e-30f));
         const Float blend = width.at(i), limit = 0.5f * (1.0f + blend), inv = 1.0f / max(blend, 1e-20f);
         const Float zero = 0.0f, one = 1.0f;
-        const auto pair = [&](Float a, Float b) { return saturate((a / max(a + b, 1e-30f) - 0.5f * (1.0f - blend)) * inv); };
+        const auto pair = [&](Float a, Float b) {
+            return saturate((a / max(a + b, 1e-30f) - 0.5f * (1.0f - blend)) * inv);
+        };
         // Three in the middle, then pairs, then single sides: the later ones overrule.
         const Float k = 1.0f / max(2.0f * limit - 1.0f, 1e-20f), shift = limit - 1.0f;
-        Vec3 w = {((2.0f - limit) * n.x + shift) * k, ((2.0f - limit) * n.y + shift) * k, ((2.0f - limit) * n.z + shift) * k};
+        Vec3 w = {((2.0f - limit) * n.x + shift) * k, ((2.0f - limit) * n.y + shift) * k,
+                  ((2.0f - limit) * n.z + shift) * k};
         const Mask no_y = n.y < (1.0f - limit) * (n.x + n.z), no_x = n.x < (1.0f - limit) * (n.y + n.z);
         const Mask no_z = n.z < (1.0f - limit) * (n.y + n.x);
         const Float xz = pair(n.x, n.z), yz = pair(n.y, n.z), xy = pair(n.x, n.y);

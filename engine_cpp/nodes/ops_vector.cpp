@@ -46,7 +46,8 @@ void op_rotate(const Machine& m, const Instruction& in) {
 /// Cycles' formula: the surface gradient of the height, and a blend with the plain normal by strength.
 void op_bump(const Machine& m, const Instruction& in) {
     const Source3 normal = m.arg3(in, 0), step_x = m.arg3(in, 3), step_y = m.arg3(in, 6);
-    const Source height_x = m.arg(in, 9), height_y = m.arg(in, 10), strengths = m.arg(in, 11), distances = m.arg(in, 12);
+    const Source height_x = m.arg(in, 9), height_y = m.arg(in, 10), strengths = m.arg(in, 11),
+                 distances = m.arg(in, 12);
     for (int i = 0; i < m.end; i += W) {
         const Vec3 n = normal.at(i), px = step_x.at(i), py = step_y.at(i);
         const Vec3 rx = cross(py, n), ry = cross(n, px);

@@ -13,9 +13,9 @@ namespace {
 /// Octaves per lane.
 struct Octaves {
     Float detail, roughness, lacunarity;
-    Mask single;      ///< one octave, as it is
+    Mask single;  ///< one octave, as it is
     Float rest;
-    int last;         ///< the highest octave of any lane
+    int last;  ///< the highest octave of any lane
 
     Octaves(Float d, Float r, Float l) : detail(d), roughness(r), lacunarity(l) {
         single = (d == Float(0.0f)) | (r == Float(0.0f));
@@ -28,11 +28,15 @@ struct Octaves {
         if (all(single)) last = 0;
     }
     Mask whole(int i) const { return Float(static_cast<float>(i)) <= detail; }
-    Mask part(int i) const { return ~whole(i) & (Float(static_cast<float>(i)) < detail + 1.0f) & (rest != Float(0.0f)); }
+    Mask part(int i) const {
+        return ~whole(i) & (Float(static_cast<float>(i)) < detail + 1.0f) & (rest != Float(0.0f));
+    }
 };
 
 template <class T>
-T lerp_all(T a, T b, Float t) { return a + (b - a) * t; }
+T lerp_all(T a, T b, Float t) {
+    return a + (b - a) * t;
+}
 
 template <int D>
 CellResult cell_octave(Vec4 p, const CellSettings& s, CellFeature feature) {
@@ -74,7 +78,8 @@ CellResult cells(Vec4 p, const CellSettings& s, const Octaves& o, CellFeature fe
     if (normalize) {
         const Float half = 0.5f + 0.5f * s.randomness, zero = 0.0f;
         const Vec4 corner = {half, D > 1 ? half : zero, D > 2 ? half : zero, D > 3 ? half : zero};
-        const Float far = cell_distance<D>(corner, Vec4{zero, zero, zero, zero}, s) * (feature == CellFeature::f2 ? 2.0f : 1.0f);
+        const Float far =
+            cell_distance<D>(corner, Vec4{zero, zero, zero, zero}, s) * (feature == CellFeature::f2 ? 2.0f : 1.0f);
         sum.distance = sum.distance / (total * far);
         sum.color = sum.color * (1.0f / total);
     }
@@ -119,9 +124,12 @@ void voronoi(const Machine& m, const Instruction& in) {
         s.exponent = a[8].at(i);
         s.randomness = a[9].at(i);
         CellResult r;
-        if (feature == CellFeature::edge) r.distance = edges<D>(p, s, octaves, normalize);
-        else if (feature == CellFeature::radius) r.distance = sphere_radius<D>(p, s);
-        else r = cells<D>(p, s, octaves, feature, normalize);
+        if (feature == CellFeature::edge)
+            r.distance = edges<D>(p, s, octaves, normalize);
+        else if (feature == CellFeature::radius)
+            r.distance = sphere_radius<D>(p, s);
+        else
+            r = cells<D>(p, s, octaves, feature, normalize);
         const Float scale = a[10].at(i);
         store(m.dst(in, 0) + i, r.distance);
         store_vec(m, in, 1, i, r.color);

@@ -10,33 +10,35 @@
 #include <string>
 #include <vector>
 
-namespace cardioid::image { class ImageStore; }
+namespace cardioid::image {
+class ImageStore;
+}
 
 namespace cardioid::nodes {
 
 /// One output each: a program keeps only what its output needs.
 enum class Purpose : std::uint8_t {
-    surface,        ///< lobes, emission and transparency
-    emission,       ///< emission alone (light sampling, world, lamps)
-    transparency,   ///< transparency alone (shadow rays)
+    surface,       ///< lobes, emission and transparency
+    emission,      ///< emission alone (light sampling, world, lamps)
+    transparency,  ///< transparency alone (shadow rays)
 };
 inline constexpr int k_purposes = 3;
 
-struct Program;   // instruction stream, defined in nodes/instructions.h
+struct Program;  // instruction stream, defined in nodes/instructions.h
 
 /// Facts that the scene builder needs before anything is rendered.
 struct ProgramInfo {
     bool has_emission = false;
-    bool constant_emission = false;   ///< then emission_value holds it, without the normal's or ray's influence
+    bool constant_emission = false;  ///< then emission_value holds it, without the normal's or ray's influence
     Float3 emission_value{0, 0, 0};
-    Float3 emission_estimate{0, 0, 0};///< rough mean radiance for choosing lights (textures: their mean colour or 1)
+    Float3 emission_estimate{0, 0, 0};  ///< rough mean radiance for choosing lights (textures: their mean colour or 1)
     bool has_transparency = false;
     bool has_lobes = false;
     bool has_bump = false;
-    bool own_normals = false;           ///< lobes may have other normals than the surface's smooth one
-    bool needs_light_path = false;    ///< depends on the kind of ray
+    bool own_normals = false;       ///< lobes may have other normals than the surface's smooth one
+    bool needs_light_path = false;  ///< depends on the kind of ray
     bool has_holdout = false;
-    bool constant_transparency = false; ///< then transparency_value holds it for every point and ray
+    bool constant_transparency = false;  ///< then transparency_value holds it for every point and ray
     Float3 transparency_value{0, 0, 0};
     bool transparency_needs_light_path = false;
     bool needs_triangle_frame = false;  ///< reads barycentrics, dp_du, dp_dv, triangle or mesh

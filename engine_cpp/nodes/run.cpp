@@ -24,7 +24,8 @@ void clear(float* row, int end) {
 
 }  // namespace
 
-void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, float* registers) {
+void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out,
+              float* registers) {
     const Machine m{view, chunk, out, registers, lanes(chunk)};
     for (int k = 0; k < view.instructions; ++k) {
         const nodes::Instruction& in = view.code[k];
@@ -32,7 +33,8 @@ void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, 
     }
 }
 
-void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, nodes::Scratch& scratch) {
+void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out,
+                 nodes::Scratch& scratch) {
     const int end = lanes(chunk);
     out.lobes = 0;
     for (int c = 0; c < 3; ++c) {

@@ -19,9 +19,11 @@ namespace cardioid::CD_ISA_NS {
 
 /// Writes every lane up to chunk.n rounded up to W: `lobes` and their rows, emission, transparency and holdout. The
 /// emission and transparency programs write their own rows; the others are zero.
-void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, nodes::Scratch& scratch);
+void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out,
+                 nodes::Scratch& scratch);
 
 /// The instructions alone, without clearing the output (constant folding).
-void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out, float* registers);
+void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out,
+              float* registers);
 
 }  // namespace cardioid::CD_ISA_NS

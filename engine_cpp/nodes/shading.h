@@ -25,8 +25,8 @@ enum RayFlag : std::uint32_t {
 
 /// Where a mesh keeps an attribute; channels 0: the mesh lacks it.
 struct AttributeRef {
-    std::uint32_t offset = 0;     ///< into GeometryTables::floats
-    std::uint8_t domain = 0;      ///< scene::Domain
+    std::uint32_t offset = 0;  ///< into GeometryTables::floats
+    std::uint8_t domain = 0;   ///< scene::Domain
     std::uint8_t channels = 0;
 };
 
@@ -42,35 +42,35 @@ struct InstanceInfo {
 };
 
 struct MeshInfo {
-    std::uint32_t first_triangle = 0;     ///< into GeometryTables::triangles
+    std::uint32_t first_triangle = 0;  ///< into GeometryTables::triangles
     std::uint32_t first_vertex = 0;
     Float3 generated_min, generated_size;
 };
 
 /// Read-only views of the built scene's geometry; pointers are owned by trace/.
 struct GeometryTables {
-    const std::uint32_t* triangles = nullptr;   ///< 3 indices each, relative to the mesh's first vertex
-    const float* positions = nullptr;           ///< xyz per vertex, object space
-    const float* floats = nullptr;              ///< attribute data of all meshes
-    const AttributeRef* attributes = nullptr;   ///< [mesh * attribute_names + name id]
+    const std::uint32_t* triangles = nullptr;  ///< 3 indices each, relative to the mesh's first vertex
+    const float* positions = nullptr;          ///< xyz per vertex, object space
+    const float* floats = nullptr;             ///< attribute data of all meshes
+    const AttributeRef* attributes = nullptr;  ///< [mesh * attribute_names + name id]
     int attribute_names = 0;
     const InstanceInfo* instances = nullptr;
     const MeshInfo* meshes = nullptr;
-    Affine camera_to_world, world_to_camera;    ///< camera looks along -z
-    std::array<float, 4> view_plane{};          ///< left, right, bottom, top at distance 1 (Window coordinates)
+    Affine camera_to_world, world_to_camera;  ///< camera looks along -z
+    std::array<float, 4> view_plane{};        ///< left, right, bottom, top at distance 1 (Window coordinates)
     bool orthographic = false;
 };
 
 struct alignas(64) ShadingChunk {
-    int n = 0;                       ///< 1…64
+    int n = 0;  ///< 1…64
     const GeometryTables* geometry = nullptr;
-    alignas(64) Row position[3];     ///< world; for the world shader: the direction
-    Row normal_geometric[3];         ///< unit, world, on wo's side
-    Row normal[3];                   ///< smooth, unit, on wo's side
-    Row wo[3];                       ///< unit, toward the ray's origin
-    Row barycentric_u, barycentric_v;///< weights of corners 1 and 2
-    Row dp_du[3], dp_dv[3];          ///< world: edge 1 and edge 2 of the triangle
-    Row footprint;                   ///< world-space width of a pixel at the point (bump, later photon radii)
+    alignas(64) Row position[3];       ///< world; for the world shader: the direction
+    Row normal_geometric[3];           ///< unit, world, on wo's side
+    Row normal[3];                     ///< smooth, unit, on wo's side
+    Row wo[3];                         ///< unit, toward the ray's origin
+    Row barycentric_u, barycentric_v;  ///< weights of corners 1 and 2
+    Row dp_du[3], dp_dv[3];            ///< world: edge 1 and edge 2 of the triangle
+    Row footprint;                     ///< world-space width of a pixel at the point (bump, later photon radii)
     Row ray_length;
     Row time;
     Row backfacing;                  ///< 1 or 0
@@ -84,10 +84,11 @@ struct alignas(64) ShadingChunk {
 
 struct alignas(64) SurfaceOutput {
     int lobes = 0;
-    bsdf::Lobe* lobe = nullptr;      ///< room for ProgramInfo::lobes of them, given by the caller (a path's record keeps them)
-    Row emission[3];                 ///< radiance toward wo; world and lamps: the colour × strength
-    Row transparency[3];             ///< weight of Transparent BSDFs: light that passes straight through
-    Row holdout;                     ///< weight of Holdout
+    bsdf::Lobe* lobe =
+        nullptr;          ///< room for ProgramInfo::lobes of them, given by the caller (a path's record keeps them)
+    Row emission[3];      ///< radiance toward wo; world and lamps: the colour × strength
+    Row transparency[3];  ///< weight of Transparent BSDFs: light that passes straight through
+    Row holdout;          ///< weight of Holdout
 };
 
 }  // namespace cardioid::nodes

@@ -12,7 +12,8 @@ using nodes::CompiledGraph;
 using nodes::Purpose;
 using test::GraphMaker;
 
-CompiledGraph compile(const scene::GraphDesc& graph, nodes::Warnings& warnings, nodes::GraphKind kind = nodes::GraphKind::material) {
+CompiledGraph compile(const scene::GraphDesc& graph, nodes::Warnings& warnings,
+                      nodes::GraphKind kind = nodes::GraphKind::material) {
     nodes::CompileContext context;
     context.name = "M";
     context.kind = kind;
@@ -24,7 +25,8 @@ CompiledGraph compile(const scene::GraphDesc& graph) {
 }
 
 TEST(Compile, ConstantDiffuseIsOneInstruction) {
-    const auto g = compile(GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {0.5f, 0.4f, 0.3f, 1}).surface("BSDF"));
+    const auto g =
+        compile(GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {0.5f, 0.4f, 0.3f, 1}).surface("BSDF"));
     EXPECT_EQ(g.of(Purpose::surface).code.size(), 1u);
     EXPECT_TRUE(g.of(Purpose::emission).code.empty());
     EXPECT_TRUE(g.of(Purpose::transparency).code.empty());
@@ -62,12 +64,12 @@ TEST(Compile, EachPurposeKeepsOnlyWhatItNeeds) {
 TEST(Compile, SharedClosureIsEmittedOnceWithItsWholeWeight) {
     GraphMaker m;
     m.node("ShaderNodeBsdfDiffuse").value("Color", {1, 1, 1, 1});
-    for (int k = 0; k < 40; ++k)
-        m.node("ShaderNodeAddShader").link("Shader", k, "BSDF").link("Shader_001", k, "BSDF");
+    for (int k = 0; k < 40; ++k) m.node("ShaderNodeAddShader").link("Shader", k, "BSDF").link("Shader_001", k, "BSDF");
     const auto g = compile(m.surface("Shader"));
     EXPECT_EQ(g.info.lobes, 1);
     const auto& p = g.of(Purpose::surface);
-    EXPECT_EQ(p.constants[static_cast<std::size_t>(p.args[0] & nodes::k_operand_index) * nodes::k_constant_stride], 1099511627776.0f);
+    EXPECT_EQ(p.constants[static_cast<std::size_t>(p.args[0] & nodes::k_operand_index) * nodes::k_constant_stride],
+              1099511627776.0f);
 }
 
 TEST(Compile, LoopsAreCutAndNamed) {

@@ -18,12 +18,18 @@ using test::GraphMaker;
 
 /// Types, sockets and properties of real graphs, to be put together wrongly.
 struct Pool {
-    std::vector<std::string> types{"ShaderNodeBsdfPrincipled", "ShaderNodeMixShader", "ShaderNodeAddShader", "ShaderNodeBsdfGlass", "ShaderNodeBump",
-                                   "ShaderNodeFromNowhere", "ShaderNodeTexImage", "ShaderNodeTexEnvironment", "ShaderNodeDisplacement"};
-    std::vector<std::string> inputs{"Shader", "Shader_001", "Fac", "Base Color", "Roughness", "Height", "Normal", "nonsense"};
-    std::vector<std::string> outputs{"Shader", "BSDF", "Color", "Value", "Vector", "Normal", "Fac", "Displacement", "Result", "nonsense"};
-    std::vector<std::pair<std::string, scene::ParamValue>> params{{"image", 3.0}, {"version", 2.0}, {"ramp", std::vector<double>{0.5}},
-                                                                 {"operation", std::string("NONSENSE")}, {"value", std::vector<double>{1e30}}};
+    std::vector<std::string> types{"ShaderNodeBsdfPrincipled", "ShaderNodeMixShader",      "ShaderNodeAddShader",
+                                   "ShaderNodeBsdfGlass",      "ShaderNodeBump",           "ShaderNodeFromNowhere",
+                                   "ShaderNodeTexImage",       "ShaderNodeTexEnvironment", "ShaderNodeDisplacement"};
+    std::vector<std::string> inputs{"Shader",    "Shader_001", "Fac",    "Base Color",
+                                    "Roughness", "Height",     "Normal", "nonsense"};
+    std::vector<std::string> outputs{"Shader", "BSDF", "Color",        "Value",  "Vector",
+                                     "Normal", "Fac",  "Displacement", "Result", "nonsense"};
+    std::vector<std::pair<std::string, scene::ParamValue>> params{{"image", 3.0},
+                                                                  {"version", 2.0},
+                                                                  {"ramp", std::vector<double>{0.5}},
+                                                                  {"operation", std::string("NONSENSE")},
+                                                                  {"value", std::vector<double>{1e30}}};
 
     Pool() {
         for (const auto& c : test::read_golden(CARDIOID_GOLDEN "/blender_3_4.json")) {
@@ -50,11 +56,14 @@ public:
             m.node(any(pool.types));
             for (int i = pick(12); i > 0; --i) {
                 const float v = wild();
-                if (pick(3) > 0) m.link(any(pool.inputs), pick(count + 3) - 1, any(pool.outputs));
-                else m.value(any(pool.inputs), {v, wild(), wild(), wild()});
+                if (pick(3) > 0)
+                    m.link(any(pool.inputs), pick(count + 3) - 1, any(pool.outputs));
+                else
+                    m.value(any(pool.inputs), {v, wild(), wild(), wild()});
             }
             for (int i = pick(5); i > 0; --i) {
-                const auto& [name, value] = pool.params[static_cast<std::size_t>(pick(static_cast<int>(pool.params.size())))];
+                const auto& [name, value] =
+                    pool.params[static_cast<std::size_t>(pick(static_cast<int>(pool.params.size())))];
                 m.param(name, value);
             }
         }
@@ -65,7 +74,9 @@ public:
 
 private:
     int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-    const std::string& any(const std::vector<std::string>& from) { return from[static_cast<std::size_t>(pick(static_cast<int>(from.size())))]; }
+    const std::string& any(const std::vector<std::string>& from) {
+        return from[static_cast<std::size_t>(pick(static_cast<int>(from.size())))];
+    }
     float wild() {
         constexpr float inf = std::numeric_limits<float>::infinity();
         const float values[] = {0, 1, 0.5f, -3, 1e-30f, 1e30f, -1e30f, inf, -inf, std::nanf(""), 3e9f, -0.0f};
@@ -87,7 +98,8 @@ TEST(Garbage, CompilesAndRuns) {
             context.optimise = seed % 3 != 0;
             const auto g = nodes::compile(Garbage(seed).graph(pool), context, warnings);
             EXPECT_LE(g.info.lobes, bsdf::k_max_lobes);
-            for (int p = 0; p < nodes::k_purposes; ++p) CD_ISA_NS::run_program(g.program[p], m->chunk, m->out, m->scratch);
+            for (int p = 0; p < nodes::k_purposes; ++p)
+                CD_ISA_NS::run_program(g.program[p], m->chunk, m->out, m->scratch);
             CD_ISA_NS::run_program(g.of(Purpose::surface), m->chunk, m->out, m->scratch);
             EXPECT_EQ(m->out.lobes, g.info.lobes);
         }
@@ -97,7 +109,8 @@ TEST(Garbage, CompilesAndRuns) {
 TEST(Garbage, AVeryDeepShaderTreeIsFine) {
     GraphMaker m;
     m.node("ShaderNodeBsdfDiffuse").value("Color", {1, 1, 1, 1});
-    for (int k = 0; k < 20000; ++k) m.node("ShaderNodeMixShader").value("Fac", {0.5f}).link("Shader", k, "Shader").link("Shader_001", k, "Shader");
+    for (int k = 0; k < 20000; ++k)
+        m.node("ShaderNodeMixShader").value("Fac", {0.5f}).link("Shader", k, "Shader").link("Shader_001", k, "Shader");
     nodes::Warnings warnings;
     nodes::CompileContext context;
     EXPECT_EQ(nodes::compile(m.surface("Shader"), context, warnings).info.lobes, 1);
@@ -125,10 +138,16 @@ TEST(Garbage, AProgramThatNeedsTooManyRegistersBecomesPlain) {
     m.node("ShaderNodeNewGeometry");
     const int count = 1500;
     for (int k = 0; k < count; ++k)
-        m.node("ShaderNodeMath").param("operation", std::string("MULTIPLY")).link("Value", 0, "Backfacing").value("Value_001", {2.0f + static_cast<float>(k)});
+        m.node("ShaderNodeMath")
+            .param("operation", std::string("MULTIPLY"))
+            .link("Value", 0, "Backfacing")
+            .value("Value_001", {2.0f + static_cast<float>(k)});
     for (const char* round : {"ADD", "MULTIPLY"})
         for (int k = 0; k < count; ++k)
-            m.node("ShaderNodeMath").param("operation", std::string(round)).link("Value", 1 + k, "Value").link("Value_001", m.index() - 1, "Value");
+            m.node("ShaderNodeMath")
+                .param("operation", std::string(round))
+                .link("Value", 1 + k, "Value")
+                .link("Value_001", m.index() - 1, "Value");
     m.node("ShaderNodeEmission").link("Strength", m.index() - 1, "Value").value("Color", {1, 1, 1, 1});
     nodes::Warnings warnings;
     nodes::CompileContext context;

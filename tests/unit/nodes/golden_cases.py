@@ -3,29 +3,113 @@
 
 from __future__ import annotations
 
-NOISE = 2e-3   # procedural noise
+NOISE = 2e-3  # procedural noise
 
-MATH = {
-    "ADD": 2, "SUBTRACT": 2, "MULTIPLY": 2, "DIVIDE": 2, "MULTIPLY_ADD": 3, "POWER": 2, "LOGARITHM": 2, "SQRT": 1, "INVERSE_SQRT": 1,
-    "ABSOLUTE": 1, "EXPONENT": 1, "MINIMUM": 2, "MAXIMUM": 2, "LESS_THAN": 2, "GREATER_THAN": 2, "SIGN": 1, "COMPARE": 3,
-    "SMOOTH_MIN": 3, "SMOOTH_MAX": 3, "ROUND": 1, "FLOOR": 1, "CEIL": 1, "TRUNC": 1, "FRACT": 1, "MODULO": 2, "WRAP": 3, "SNAP": 2,
-    "PINGPONG": 2, "SINE": 1, "COSINE": 1, "TANGENT": 1, "ARCSINE": 1, "ARCCOSINE": 1, "ARCTANGENT": 1, "ARCTAN2": 2, "SINH": 1,
-    "COSH": 1, "TANH": 1, "RADIANS": 1, "DEGREES": 1,
-}
+MATH = [
+    "ADD",
+    "SUBTRACT",
+    "MULTIPLY",
+    "DIVIDE",
+    "MULTIPLY_ADD",
+    "POWER",
+    "LOGARITHM",
+    "SQRT",
+    "INVERSE_SQRT",
+    "ABSOLUTE",
+    "EXPONENT",
+    "MINIMUM",
+    "MAXIMUM",
+    "LESS_THAN",
+    "GREATER_THAN",
+    "SIGN",
+    "COMPARE",
+    "SMOOTH_MIN",
+    "SMOOTH_MAX",
+    "ROUND",
+    "FLOOR",
+    "CEIL",
+    "TRUNC",
+    "FRACT",
+    "MODULO",
+    "WRAP",
+    "SNAP",
+    "PINGPONG",
+    "SINE",
+    "COSINE",
+    "TANGENT",
+    "ARCSINE",
+    "ARCCOSINE",
+    "ARCTANGENT",
+    "ARCTAN2",
+    "SINH",
+    "COSH",
+    "TANH",
+    "RADIANS",
+    "DEGREES",
+]
 VECTOR_MATH = [
-    "ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "MULTIPLY_ADD", "CROSS_PRODUCT", "PROJECT", "REFLECT", "REFRACT", "FACEFORWARD",
-    "DOT_PRODUCT", "DISTANCE", "LENGTH", "SCALE", "NORMALIZE", "ABSOLUTE", "MINIMUM", "MAXIMUM", "FLOOR", "CEIL", "FRACTION",
-    "MODULO", "WRAP", "SNAP", "SINE", "COSINE", "TANGENT",
+    "ADD",
+    "SUBTRACT",
+    "MULTIPLY",
+    "DIVIDE",
+    "MULTIPLY_ADD",
+    "CROSS_PRODUCT",
+    "PROJECT",
+    "REFLECT",
+    "REFRACT",
+    "FACEFORWARD",
+    "DOT_PRODUCT",
+    "DISTANCE",
+    "LENGTH",
+    "SCALE",
+    "NORMALIZE",
+    "ABSOLUTE",
+    "MINIMUM",
+    "MAXIMUM",
+    "FLOOR",
+    "CEIL",
+    "FRACTION",
+    "MODULO",
+    "WRAP",
+    "SNAP",
+    "SINE",
+    "COSINE",
+    "TANGENT",
 ]
 NUMBER_RESULTS = ("DOT_PRODUCT", "DISTANCE", "LENGTH")
 BLENDS = [
-    "MIX", "DARKEN", "MULTIPLY", "BURN", "LIGHTEN", "SCREEN", "DODGE", "ADD", "OVERLAY", "SOFT_LIGHT", "LINEAR_LIGHT", "DIFFERENCE",
-    "SUBTRACT", "DIVIDE", "HUE", "SATURATION", "COLOR", "VALUE",
+    "MIX",
+    "DARKEN",
+    "MULTIPLY",
+    "BURN",
+    "LIGHTEN",
+    "SCREEN",
+    "DODGE",
+    "ADD",
+    "OVERLAY",
+    "SOFT_LIGHT",
+    "LINEAR_LIGHT",
+    "DIFFERENCE",
+    "SUBTRACT",
+    "DIVIDE",
+    "HUE",
+    "SATURATION",
+    "COLOR",
+    "VALUE",
 ]
 
 
-def case(name: str, kind: str, output: str, inputs: dict | None = None, tolerance: float = 1e-3, setup=None, **params) -> dict:
-    found = {"name": name, "type": kind, "output": output, "inputs": inputs or {}, "params": params, "tolerance": tolerance}
+def case(
+    name: str, kind: str, output: str, inputs: dict | None = None, tolerance: float = 1e-3, setup=None, **params
+) -> dict:
+    found = {
+        "name": name,
+        "type": kind,
+        "output": output,
+        "inputs": inputs or {},
+        "params": params,
+        "tolerance": tolerance,
+    }
     if setup is not None:
         found["setup"] = setup
     return found
@@ -33,15 +117,19 @@ def case(name: str, kind: str, output: str, inputs: dict | None = None, toleranc
 
 def math_cases() -> list[dict]:
     found = []
-    for op, count in MATH.items():
+    for op in MATH:
         inputs = {"Value": "x", "Value_001": "y", "Value_002": 0.3}
         if op in ("POWER", "LOGARITHM", "SQRT", "INVERSE_SQRT"):
             inputs = {"Value": "u", "Value_001": 2.7}
         if op in ("MODULO", "SNAP", "PINGPONG", "WRAP"):
             inputs = {"Value": "x", "Value_001": 0.37, "Value_002": -0.11}
         found.append(case(f"math {op}", "ShaderNodeMath", "Value", inputs, operation=op))
-    found.append(case("math POWER whole", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": 3.0}, operation="POWER"))
-    found.append(case("math clamp", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": "y"}, operation="ADD", use_clamp=True))
+    found.append(
+        case("math POWER whole", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": 3.0}, operation="POWER")
+    )
+    found.append(
+        case("math clamp", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": "y"}, operation="ADD", use_clamp=True)
+    )
     for op in VECTOR_MATH:
         inputs = {"Vector": "v", "Vector_001": "c", "Vector_002": (0.3, -0.4, 0.7)}
         if op == "SCALE":
@@ -50,21 +138,58 @@ def math_cases() -> list[dict]:
             inputs = {"Vector": "v", "Vector_001": "n", "Scale": 0.8}
         if op in ("MODULO", "SNAP", "WRAP"):
             inputs = {"Vector": "v", "Vector_001": (0.37, 0.21, 0.6), "Vector_002": (-0.1, -0.2, 0.0)}
-        inputs = {k: v for k, v in inputs.items() if not (k == "Vector_002" and op not in ("MULTIPLY_ADD", "FACEFORWARD", "WRAP"))}
+        inputs = {
+            k: v
+            for k, v in inputs.items()
+            if not (k == "Vector_002" and op not in ("MULTIPLY_ADD", "FACEFORWARD", "WRAP"))
+        }
         if op in ("LENGTH", "NORMALIZE", "ABSOLUTE", "FLOOR", "CEIL", "FRACTION", "SINE", "COSINE", "TANGENT"):
             inputs = {"Vector": "v"}
-        found.append(case(f"vector math {op}", "ShaderNodeVectorMath", "Value" if op in NUMBER_RESULTS else "Vector", inputs, operation=op))
+        found.append(
+            case(
+                f"vector math {op}",
+                "ShaderNodeVectorMath",
+                "Value" if op in NUMBER_RESULTS else "Vector",
+                inputs,
+                operation=op,
+            )
+        )
     for kind in ("LINEAR", "STEPPED", "SMOOTHSTEP", "SMOOTHERSTEP"):
         for clamp in (True, False):
             inputs = {"Value": "x", "From Min": -0.6, "From Max": 0.5, "To Min": 1.2, "To Max": -0.4}
             if kind == "STEPPED":
                 inputs["Steps"] = 3.0
-            found.append(case(f"map range {kind} {clamp}", "ShaderNodeMapRange", "Result", inputs, interpolation_type=kind, clamp=clamp))
-        inputs = {"Vector": "v", "From_Min_FLOAT3": (-0.6, -0.5, -0.1), "From_Max_FLOAT3": (0.5, 0.2, 0.3),
-                  "To_Min_FLOAT3": (1, 0, 2), "To_Max_FLOAT3": (2, 3, -1)}
-        found.append(case(f"map range vector {kind}", "ShaderNodeMapRange", "Vector", inputs, interpolation_type=kind, data_type="FLOAT_VECTOR"))
+            found.append(
+                case(
+                    f"map range {kind} {clamp}",
+                    "ShaderNodeMapRange",
+                    "Result",
+                    inputs,
+                    interpolation_type=kind,
+                    clamp=clamp,
+                )
+            )
+        inputs = {
+            "Vector": "v",
+            "From_Min_FLOAT3": (-0.6, -0.5, -0.1),
+            "From_Max_FLOAT3": (0.5, 0.2, 0.3),
+            "To_Min_FLOAT3": (1, 0, 2),
+            "To_Max_FLOAT3": (2, 3, -1),
+        }
+        found.append(
+            case(
+                f"map range vector {kind}",
+                "ShaderNodeMapRange",
+                "Vector",
+                inputs,
+                interpolation_type=kind,
+                data_type="FLOAT_VECTOR",
+            )
+        )
     for kind in ("MINMAX", "RANGE"):
-        found.append(case(f"clamp {kind}", "ShaderNodeClamp", "Result", {"Value": "x", "Min": 0.4, "Max": -0.3}, clamp_type=kind))
+        found.append(
+            case(f"clamp {kind}", "ShaderNodeClamp", "Result", {"Value": "x", "Min": 0.4, "Max": -0.3}, clamp_type=kind)
+        )
     return found
 
 
@@ -78,6 +203,7 @@ def ramp(stops, interpolation, mode="RGB", hue="NEAR"):
         band.elements[1].position, band.elements[1].color = stops[-1]
         for position, color in stops[1:-1]:
             band.elements.new(position).color = color
+
     return setup
 
 
@@ -90,6 +216,7 @@ def curve(points_by_curve, extend="EXTRAPOLATED"):
             for x, y in points[1:-1]:
                 line.points.new(x, y)
         node.mapping.update()
+
     return setup
 
 
@@ -98,15 +225,66 @@ def color_cases() -> list[dict]:
     for mode in BLENDS:
         inputs = {"Factor_Float": "u", "A_Color": "c", "B_Color": (0.7, 0.2, 0.4, 1)}
         found.append(case(f"mix {mode}", "ShaderNodeMix", "Result_Color", inputs, data_type="RGBA", blend_type=mode))
-    found.append(case("mix rgb", "ShaderNodeMixRGB", "Color", {"Fac": "x", "Color1": "c", "Color2": (0.9, 0.1, 2, 1)}, blend_type="ADD", use_clamp=True))
-    found.append(case("mix free factor", "ShaderNodeMix", "Result_Color", {"Factor_Float": "x", "A_Color": "c", "B_Color": (1, 0, 2, 1)},
-                      data_type="RGBA", clamp_factor=False, clamp_result=True))
-    found.append(case("mix float", "ShaderNodeMix", "Result_Float", {"Factor_Float": "u", "A_Float": "y", "B_Float": 3.0}, data_type="FLOAT"))
-    found.append(case("mix vector", "ShaderNodeMix", "Result_Vector", {"Factor_Float": "x", "A_Vector": "v", "B_Vector": (1, 2, 3)}, data_type="VECTOR"))
-    found.append(case("mix vector each", "ShaderNodeMix", "Result_Vector", {"Factor_Vector": "v", "A_Vector": (0, 1, 0), "B_Vector": (1, 2, 3)},
-                      data_type="VECTOR", factor_mode="NON_UNIFORM"))
-    found.append(case("hue saturation", "ShaderNodeHueSaturation", "Color", {"Hue": 0.8, "Saturation": 1.6, "Value": 0.7, "Fac": 0.9, "Color": "c"}))
-    found.append(case("bright contrast", "ShaderNodeBrightContrast", "Color", {"Bright": 0.2, "Contrast": 0.7, "Color": "c"}))
+    found.append(
+        case(
+            "mix rgb",
+            "ShaderNodeMixRGB",
+            "Color",
+            {"Fac": "x", "Color1": "c", "Color2": (0.9, 0.1, 2, 1)},
+            blend_type="ADD",
+            use_clamp=True,
+        )
+    )
+    found.append(
+        case(
+            "mix free factor",
+            "ShaderNodeMix",
+            "Result_Color",
+            {"Factor_Float": "x", "A_Color": "c", "B_Color": (1, 0, 2, 1)},
+            data_type="RGBA",
+            clamp_factor=False,
+            clamp_result=True,
+        )
+    )
+    found.append(
+        case(
+            "mix float",
+            "ShaderNodeMix",
+            "Result_Float",
+            {"Factor_Float": "u", "A_Float": "y", "B_Float": 3.0},
+            data_type="FLOAT",
+        )
+    )
+    found.append(
+        case(
+            "mix vector",
+            "ShaderNodeMix",
+            "Result_Vector",
+            {"Factor_Float": "x", "A_Vector": "v", "B_Vector": (1, 2, 3)},
+            data_type="VECTOR",
+        )
+    )
+    found.append(
+        case(
+            "mix vector each",
+            "ShaderNodeMix",
+            "Result_Vector",
+            {"Factor_Vector": "v", "A_Vector": (0, 1, 0), "B_Vector": (1, 2, 3)},
+            data_type="VECTOR",
+            factor_mode="NON_UNIFORM",
+        )
+    )
+    found.append(
+        case(
+            "hue saturation",
+            "ShaderNodeHueSaturation",
+            "Color",
+            {"Hue": 0.8, "Saturation": 1.6, "Value": 0.7, "Fac": 0.9, "Color": "c"},
+        )
+    )
+    found.append(
+        case("bright contrast", "ShaderNodeBrightContrast", "Color", {"Bright": 0.2, "Contrast": 0.7, "Color": "c"})
+    )
     found.append(case("gamma", "ShaderNodeGamma", "Color", {"Gamma": 2.2, "Color": "c"}))
     found.append(case("gamma zero", "ShaderNodeGamma", "Color", {"Gamma": 0.0, "Color": "c"}))
     found.append(case("invert", "ShaderNodeInvert", "Color", {"Fac": 0.8, "Color": "c"}))
@@ -117,23 +295,55 @@ def color_cases() -> list[dict]:
     for mode in ("RGB", "HSV", "HSL"):
         found.append(case(f"separate {mode}", "ShaderNodeSeparateColor", "Red", {"Color": "c"}, mode=mode))
         found.append(case(f"separate second {mode}", "ShaderNodeSeparateColor", "Green", {"Color": "c"}, mode=mode))
-        found.append(case(f"combine {mode}", "ShaderNodeCombineColor", "Color", {"Red": "u", "Green": 0.6, "Blue": 0.7}, mode=mode))
+        found.append(
+            case(
+                f"combine {mode}", "ShaderNodeCombineColor", "Color", {"Red": "u", "Green": 0.6, "Blue": 0.7}, mode=mode
+            )
+        )
     found.append(case("separate hsv", "ShaderNodeSeparateHSV", "S", {"Color": "c"}))
     found.append(case("combine rgb", "ShaderNodeCombineRGB", "Image", {"R": "x", "G": "y", "B": 0.1}))
     two = [(0.1, (0.9, 0.1, 0.2, 1)), (0.8, (0.1, 0.3, 0.9, 0.5))]
     four = [(0.05, (0.9, 0.1, 0.2, 1)), (0.3, (0.2, 0.8, 0.1, 0.3)), (0.6, (0.3, 0.3, 0.9, 1)), (0.9, (1, 1, 0.2, 0.5))]
     for mode in ("LINEAR", "EASE", "CONSTANT", "CARDINAL", "B_SPLINE"):
         for name, stops in (("two", two), ("four", four)):
-            found.append(case(f"ramp {mode} {name}", "ShaderNodeValToRGB", "Color", {"Fac": "u"}, setup=ramp(stops, mode)))
+            found.append(
+                case(f"ramp {mode} {name}", "ShaderNodeValToRGB", "Color", {"Fac": "u"}, setup=ramp(stops, mode))
+            )
     for hue in ("NEAR", "FAR", "CW", "CCW"):
-        found.append(case(f"ramp hsv {hue}", "ShaderNodeValToRGB", "Color", {"Fac": "u"}, setup=ramp(two, "LINEAR", "HSV", hue)))
+        found.append(
+            case(f"ramp hsv {hue}", "ShaderNodeValToRGB", "Color", {"Fac": "u"}, setup=ramp(two, "LINEAR", "HSV", hue))
+        )
     found.append(case("ramp hsl", "ShaderNodeValToRGB", "Color", {"Fac": "u"}, setup=ramp(four, "LINEAR", "HSL")))
     found.append(case("ramp alpha", "ShaderNodeValToRGB", "Alpha", {"Fac": "x"}, setup=ramp(four, "LINEAR")))
     bent = {0: [(0, 0.1), (0.4, 0.7), (1, 0.9)], 2: [(0, 1), (1, 0)], 3: [(0, 0), (0.5, 0.3), (1, 1)]}
     found.append(case("rgb curves", "ShaderNodeRGBCurve", "Color", {"Fac": 0.9, "Color": "c"}, setup=curve(bent)))
-    found.append(case("rgb curves outside", "ShaderNodeRGBCurve", "Color", {"Fac": 1.0, "Color": "v"}, setup=curve(bent, "HORIZONTAL")))
-    found.append(case("vector curves", "ShaderNodeVectorCurve", "Vector", {"Fac": 1.0, "Vector": "v"}, setup=curve({1: [(-1, -1), (0.2, 0.7), (1, 1)]})))
-    found.append(case("float curve", "ShaderNodeFloatCurve", "Value", {"Factor": 1.0, "Value": "x"}, setup=curve({0: [(0, 0.2), (0.3, 0.8), (1, 0.4)]})))
+    found.append(
+        case(
+            "rgb curves outside",
+            "ShaderNodeRGBCurve",
+            "Color",
+            {"Fac": 1.0, "Color": "v"},
+            setup=curve(bent, "HORIZONTAL"),
+        )
+    )
+    found.append(
+        case(
+            "vector curves",
+            "ShaderNodeVectorCurve",
+            "Vector",
+            {"Fac": 1.0, "Vector": "v"},
+            setup=curve({1: [(-1, -1), (0.2, 0.7), (1, 1)]}),
+        )
+    )
+    found.append(
+        case(
+            "float curve",
+            "ShaderNodeFloatCurve",
+            "Value",
+            {"Factor": 1.0, "Value": "x"},
+            setup=curve({0: [(0, 0.2), (0.3, 0.8), (1, 0.4)]}),
+        )
+    )
     return found
 
 
@@ -152,7 +362,16 @@ def vector_cases() -> list[dict]:
             inputs["Angle"] = 0.8
         if kind == "AXIS_ANGLE":
             inputs["Axis"] = (0.4, 0.5, 1.0)
-        found.append(case(f"rotate {kind}", "ShaderNodeVectorRotate", "Vector", inputs, rotation_type=kind, invert=kind in ("X_AXIS", "EULER_XYZ")))
+        found.append(
+            case(
+                f"rotate {kind}",
+                "ShaderNodeVectorRotate",
+                "Vector",
+                inputs,
+                rotation_type=kind,
+                invert=kind in ("X_AXIS", "EULER_XYZ"),
+            )
+        )
     found.append(case("fresnel", "ShaderNodeFresnel", "Fac", {"IOR": 1.6, "Normal": "n"}))
     found.append(case("layer weight fresnel", "ShaderNodeLayerWeight", "Fresnel", {"Blend": 0.3, "Normal": "n"}))
     found.append(case("layer weight facing", "ShaderNodeLayerWeight", "Facing", {"Blend": 0.8, "Normal": "n"}))
@@ -170,41 +389,130 @@ def texture_cases(version: tuple) -> list[dict]:
     found.append(case("checker", "ShaderNodeTexChecker", "Color", {**colors, "Scale": 3.3}))
     brick = {**colors, "Mortar": (0.3, 0.3, 0.5, 1), "Scale": 4.0, "Mortar Size": 0.03}
     found.append(case("brick", "ShaderNodeTexBrick", "Color", brick))
-    found.append(case("brick smooth", "ShaderNodeTexBrick", "Color", {**brick, "Mortar Size": 0.1, "Mortar Smooth": 0.6, "Bias": -0.3},
-                      offset=0.3, offset_frequency=3, squash=0.6, squash_frequency=2))
+    found.append(
+        case(
+            "brick smooth",
+            "ShaderNodeTexBrick",
+            "Color",
+            {**brick, "Mortar Size": 0.1, "Mortar Smooth": 0.6, "Bias": -0.3},
+            offset=0.3,
+            offset_frequency=3,
+            squash=0.6,
+            squash_frequency=2,
+        )
+    )
     found.append(case("brick mortar", "ShaderNodeTexBrick", "Fac", {**brick, "Mortar Size": 0.1, "Mortar Smooth": 0.8}))
     for depth in (0, 2, 5, 10):
-        found.append(case(f"magic {depth}", "ShaderNodeTexMagic", "Color", {"Vector": "v", "Scale": 2.0, "Distortion": 1.3}, NOISE, turbulence_depth=depth))
+        found.append(
+            case(
+                f"magic {depth}",
+                "ShaderNodeTexMagic",
+                "Color",
+                {"Vector": "v", "Scale": 2.0, "Distortion": 1.3},
+                NOISE,
+                turbulence_depth=depth,
+            )
+        )
     for profile in ("SIN", "SAW", "TRI"):
         for kind, way in (("BANDS", "X"), ("BANDS", "DIAGONAL"), ("RINGS", "Z"), ("RINGS", "SPHERICAL")):
             params = {"wave_type": kind, "wave_profile": profile, f"{kind.lower()}_direction": way}
-            found.append(case(f"wave {profile} {kind} {way}", "ShaderNodeTexWave", "Fac",
-                              {"Vector": "v", "Scale": 1.2, "Distortion": 2.0 if way in ("X", "Z") else 0.0, "Phase Offset": 0.4}, NOISE, **params))
+            found.append(
+                case(
+                    f"wave {profile} {kind} {way}",
+                    "ShaderNodeTexWave",
+                    "Fac",
+                    {"Vector": "v", "Scale": 1.2, "Distortion": 2.0 if way in ("X", "Z") else 0.0, "Phase Offset": 0.4},
+                    NOISE,
+                    **params,
+                )
+            )
     for size in ("1D", "2D", "3D", "4D"):
         place = {} if size == "1D" else {"Vector": "v"}
         if size in ("1D", "4D"):
             place["W"] = "x"
         whole = {key: 0.75 if key == "W" else "f" for key in place}
         found.append(case(f"white noise {size}", "ShaderNodeTexWhiteNoise", "Color", whole, noise_dimensions=size))
-        found.append(case(f"noise {size}", "ShaderNodeTexNoise", "Color", {**place, "Scale": 2.3, "Detail": 3.4, "Roughness": 0.6}, NOISE, noise_dimensions=size))
-        found.append(case(f"noise distorted {size}", "ShaderNodeTexNoise", "Fac", {**place, "Scale": 1.3, "Detail": 2.0, "Distortion": 0.8}, NOISE,
-                          noise_dimensions=size))
+        found.append(
+            case(
+                f"noise {size}",
+                "ShaderNodeTexNoise",
+                "Color",
+                {**place, "Scale": 2.3, "Detail": 3.4, "Roughness": 0.6},
+                NOISE,
+                noise_dimensions=size,
+            )
+        )
+        found.append(
+            case(
+                f"noise distorted {size}",
+                "ShaderNodeTexNoise",
+                "Fac",
+                {**place, "Scale": 1.3, "Detail": 2.0, "Distortion": 0.8},
+                NOISE,
+                noise_dimensions=size,
+            )
+        )
         for feature in ("F1", "F2", "SMOOTH_F1", "DISTANCE_TO_EDGE", "N_SPHERE_RADIUS"):
             inputs = {**place, "Scale": 2.1, "Randomness": 0.9}
             out = {"DISTANCE_TO_EDGE": "Distance", "N_SPHERE_RADIUS": "Radius"}.get(feature, "Color")
             if version >= (4, 0) and feature != "N_SPHERE_RADIUS":
                 inputs = {**inputs, "Detail": 1.6, "Roughness": 0.7, "Lacunarity": 1.9}
-            normal = {"normalize": True} if version >= (4, 0) and feature not in ("N_SPHERE_RADIUS", "SMOOTH_F1") else {}
-            found.append(case(f"voronoi {feature} {size}", "ShaderNodeTexVoronoi", out, inputs, NOISE, voronoi_dimensions=size, feature=feature, **normal))
+            normal = (
+                {"normalize": True} if version >= (4, 0) and feature not in ("N_SPHERE_RADIUS", "SMOOTH_F1") else {}
+            )
+            found.append(
+                case(
+                    f"voronoi {feature} {size}",
+                    "ShaderNodeTexVoronoi",
+                    out,
+                    inputs,
+                    NOISE,
+                    voronoi_dimensions=size,
+                    feature=feature,
+                    **normal,
+                )
+            )
             if out == "Color" and size in ("2D", "3D"):
                 metric = {"F1": "MANHATTAN", "F2": "CHEBYCHEV", "SMOOTH_F1": "MINKOWSKI"}[feature]
                 inputs = {**inputs, "Exponent": 1.7} if metric == "MINKOWSKI" else inputs
-                found.append(case(f"voronoi {metric} {size}", "ShaderNodeTexVoronoi", "Distance", inputs, NOISE, voronoi_dimensions=size,
-                                  feature=feature, distance=metric, **normal))
-                found.append(case(f"voronoi position {feature} {size}", "ShaderNodeTexVoronoi", "Position", inputs, NOISE, voronoi_dimensions=size,
-                                  feature=feature, **normal))
+                found.append(
+                    case(
+                        f"voronoi {metric} {size}",
+                        "ShaderNodeTexVoronoi",
+                        "Distance",
+                        inputs,
+                        NOISE,
+                        voronoi_dimensions=size,
+                        feature=feature,
+                        distance=metric,
+                        **normal,
+                    )
+                )
+                found.append(
+                    case(
+                        f"voronoi position {feature} {size}",
+                        "ShaderNodeTexVoronoi",
+                        "Position",
+                        inputs,
+                        NOISE,
+                        voronoi_dimensions=size,
+                        feature=feature,
+                        **normal,
+                    )
+                )
             if size in ("1D", "4D") and out == "Color":
-                found.append(case(f"voronoi w {feature} {size}", "ShaderNodeTexVoronoi", "W", inputs, NOISE, voronoi_dimensions=size, feature=feature, **normal))
+                found.append(
+                    case(
+                        f"voronoi w {feature} {size}",
+                        "ShaderNodeTexVoronoi",
+                        "W",
+                        inputs,
+                        NOISE,
+                        voronoi_dimensions=size,
+                        feature=feature,
+                        **normal,
+                    )
+                )
         if version < (4, 1):
             for kind in ("FBM", "MULTIFRACTAL", "RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL", "HETERO_TERRAIN"):
                 inputs = {**place, "Scale": 1.7, "Detail": 3.3, "Dimension": 0.8, "Lacunarity": 2.1}
@@ -212,18 +520,38 @@ def texture_cases(version: tuple) -> list[dict]:
                     inputs["Offset"] = 0.4
                 if kind in ("RIDGED_MULTIFRACTAL", "HYBRID_MULTIFRACTAL"):
                     inputs["Gain"] = 1.3
-                found.append(case(f"musgrave {kind} {size}", "ShaderNodeTexMusgrave", "Fac", inputs, NOISE, musgrave_type=kind, musgrave_dimensions=size))
+                found.append(
+                    case(
+                        f"musgrave {kind} {size}",
+                        "ShaderNodeTexMusgrave",
+                        "Fac",
+                        inputs,
+                        NOISE,
+                        musgrave_type=kind,
+                        musgrave_dimensions=size,
+                    )
+                )
     return found
 
 
 def scene_cases() -> list[dict]:
     """Nodes that look at the surface: coordinates, attributes, spaces, normals."""
-    found = [case(f"coordinate {out}", "ShaderNodeTexCoord", out) for out in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection")]
-    found += [case(f"geometry {out}", "ShaderNodeNewGeometry", out)
-              for out in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing")]
-    found += [case(f"camera {out}", "ShaderNodeCameraData", out) for out in ("View Vector", "View Z Depth", "View Distance")]
+    found = [
+        case(f"coordinate {out}", "ShaderNodeTexCoord", out)
+        for out in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection")
+    ]
+    found += [
+        case(f"geometry {out}", "ShaderNodeNewGeometry", out)
+        for out in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Parametric", "Backfacing")
+    ]
+    found += [
+        case(f"camera {out}", "ShaderNodeCameraData", out) for out in ("View Vector", "View Z Depth", "View Distance")
+    ]
     found += [case(f"object {out}", "ShaderNodeObjectInfo", out) for out in ("Location", "Object Index")]
-    found += [case(f"light path {out}", "ShaderNodeLightPath", out) for out in ("Is Camera Ray", "Is Diffuse Ray", "Ray Length")]
+    found += [
+        case(f"light path {out}", "ShaderNodeLightPath", out)
+        for out in ("Is Camera Ray", "Is Diffuse Ray", "Ray Length")
+    ]
     found.append(case("uv map", "ShaderNodeUVMap", "UV", uv_map="UVMap"))
     found.append(case("attribute uv", "ShaderNodeAttribute", "Vector", attribute_name="UVMap"))
     found.append(case("attribute colour", "ShaderNodeAttribute", "Color", attribute_name="Col"))
@@ -234,22 +562,66 @@ def scene_cases() -> list[dict]:
         found.append(case(f"tangent {axis}", "ShaderNodeTangent", "Tangent", direction_type="RADIAL", axis=axis))
     found.append(case("tangent uv", "ShaderNodeTangent", "Tangent", direction_type="UV_MAP", uv_map="UVMap"))
     for space in ("TANGENT", "OBJECT", "WORLD", "BLENDER_OBJECT", "BLENDER_WORLD"):
-        found.append(case(f"normal map {space}", "ShaderNodeNormalMap", "Normal", {"Color": "c", "Strength": 0.7}, 5e-3, space=space))
+        found.append(
+            case(
+                f"normal map {space}",
+                "ShaderNodeNormalMap",
+                "Normal",
+                {"Color": "c", "Strength": 0.7},
+                5e-3,
+                space=space,
+            )
+        )
     for kind in ("POINT", "VECTOR", "NORMAL"):
         for a, b in (("WORLD", "OBJECT"), ("OBJECT", "WORLD"), ("WORLD", "CAMERA"), ("CAMERA", "OBJECT")):
-            found.append(case(f"transform {kind} {a} {b}", "ShaderNodeVectorTransform", "Vector", {"Vector": "v"}, vector_type=kind, convert_from=a, convert_to=b))
+            found.append(
+                case(
+                    f"transform {kind} {a} {b}",
+                    "ShaderNodeVectorTransform",
+                    "Vector",
+                    {"Vector": "v"},
+                    vector_type=kind,
+                    convert_from=a,
+                    convert_to=b,
+                )
+            )
     found.append(case("bump", "ShaderNodeBump", "Normal", {"Strength": 0.8, "Distance": 0.5, "Height": "u"}))
-    found.append(case("bump inverted", "ShaderNodeBump", "Normal", {"Strength": 1.0, "Distance": 0.2, "Height": "y"}, invert=True))
-    found.append(case("bump on normal", "ShaderNodeBump", "Normal", {"Strength": 0.6, "Distance": 0.3, "Height": "y", "Normal": "n"}))
+    found.append(
+        case(
+            "bump inverted", "ShaderNodeBump", "Normal", {"Strength": 1.0, "Distance": 0.2, "Height": "y"}, invert=True
+        )
+    )
+    found.append(
+        case(
+            "bump on normal",
+            "ShaderNodeBump",
+            "Normal",
+            {"Strength": 0.6, "Distance": 0.3, "Height": "y", "Normal": "n"},
+        )
+    )
     found.append(case("checker generated", "ShaderNodeTexChecker", "Fac", {"Scale": 3.7}))
     return found
 
 
 def newer_cases() -> list[dict]:
     """What 4.x and later have and 3.4 has not."""
-    found = [case("mix EXCLUSION", "ShaderNodeMix", "Result_Color", {"Factor_Float": "u", "A_Color": "c", "B_Color": (0.7, 0.2, 0.4, 1)},
-                  data_type="RGBA", blend_type="EXCLUSION"),
-             case("math FLOORED_MODULO", "ShaderNodeMath", "Value", {"Value": "x", "Value_001": 0.37}, operation="FLOORED_MODULO")]
+    found = [
+        case(
+            "mix EXCLUSION",
+            "ShaderNodeMix",
+            "Result_Color",
+            {"Factor_Float": "u", "A_Color": "c", "B_Color": (0.7, 0.2, 0.4, 1)},
+            data_type="RGBA",
+            blend_type="EXCLUSION",
+        ),
+        case(
+            "math FLOORED_MODULO",
+            "ShaderNodeMath",
+            "Value",
+            {"Value": "x", "Value_001": 0.37},
+            operation="FLOORED_MODULO",
+        ),
+    ]
     for size in ("1D", "2D", "3D", "4D"):
         place = {} if size == "1D" else {"Vector": "v"}
         if size in ("1D", "4D"):

@@ -14,10 +14,10 @@ namespace cardioid::test {
 struct GoldenCase {
     std::string name;
     float tolerance = 0;
-    float pixel = 0, half_height = 0;    ///< of the camera's picture, scene units
+    float pixel = 0, half_height = 0;  ///< of the camera's picture, scene units
     scene::GraphDesc graph;
-    float center[2] = {0, 0};            ///< of the tile
-    std::vector<float> points, values;   ///< xyz and rgb
+    float center[2] = {0, 0};           ///< of the tile
+    std::vector<float> points, values;  ///< xyz and rgb
 };
 
 inline void PrintTo(const GoldenCase& c, std::ostream* out) { *out << c.name; }

@@ -40,9 +40,12 @@ std::string name_of(const testing::TestParamInfo<GoldenCase>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Blender34, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_3_4.json")), name_of);
-INSTANTIATE_TEST_SUITE_P(Blender45, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_4_5.json")), name_of);
-INSTANTIATE_TEST_SUITE_P(Blender50, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_5_0.json")), name_of);
+INSTANTIATE_TEST_SUITE_P(Blender34, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_3_4.json")),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Blender45, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_4_5.json")),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Blender50, Golden, testing::ValuesIn(test::read_golden(CARDIOID_GOLDEN "/blender_5_0.json")),
+                         name_of);
 
 }  // namespace
 }  // namespace cardioid

@@ -16,7 +16,8 @@ class GoldenTile {
 public:
     GoldenTile(const GoldenCase& c, const std::vector<std::string>& names) : case_(c) {
         const float cs = std::cos(0.4f), sn = std::sin(0.4f);
-        instance_.object_to_world.m = {1.5f * cs, -0.8f * sn, 0, c.center[0], 1.5f * sn, 0.8f * cs, 0, c.center[1], 0, 0, 1.2f, 0};
+        instance_.object_to_world.m = {1.5f * cs, -0.8f * sn,  0, c.center[0], 1.5f * sn, 0.8f * cs,
+                                       0,         c.center[1], 0, 0,           1.2f,      0};
         instance_.world_to_object.m = {cs / 1.5f, sn / 1.5f, 0, 0, -sn / 0.8f, cs / 0.8f, 0, 0, 0, 0, 1 / 1.2f, 0};
         const Float3 origin = instance_.world_to_object.vector({-c.center[0], -c.center[1], 0});
         instance_.world_to_object.m[3] = origin.x;
@@ -74,16 +75,19 @@ private:
             floats_.insert(floats_.end(), {0.2f * f, 0.9f - 0.1f * f, 0.3f, 1 - 0.2f * f});
         }
         for (const auto& name : names) {
-            if (name == "UVMap" || name == nodes::k_active_uv) refs_.push_back({0, 1, 2});
-            else if (name == "Col" || name == nodes::k_active_color) refs_.push_back({colors, 0, 4});
-            else refs_.push_back({});
+            if (name == "UVMap" || name == nodes::k_active_uv)
+                refs_.push_back({0, 1, 2});
+            else if (name == "Col" || name == nodes::k_active_color)
+                refs_.push_back({colors, 0, 4});
+            else
+                refs_.push_back({});
         }
     }
 
     void fill_lane(nodes::ShadingChunk& c, int i, std::size_t point) const {
         const float a = case_.points[point] - case_.center[0], b = case_.points[point + 1] - case_.center[1];
         const Float3 n = normalize(Float3{-0.3f, -0.2f, 1});
-        const bool first = a > b + 1e-4f;   // Cycles gives the diagonal to the second triangle
+        const bool first = a > b + 1e-4f;  // Cycles gives the diagonal to the second triangle
         c.triangle[i] = first ? 0 : 1;
         c.mesh[i] = c.instance[i] = 0;
         c.barycentric_u[i] = first ? (a - b) / 2 : (a + 1) / 2;
@@ -96,7 +100,7 @@ private:
         set(c.dp_du, i, world_[t[1]] - world_[t[0]]);
         set(c.dp_dv, i, world_[t[2]] - world_[t[0]]);
         c.footprint[i] = case_.pixel;
-        c.ray_length[i] = 9.9f - case_.points[point + 2];   // from the near clipping plane
+        c.ray_length[i] = 9.9f - case_.points[point + 2];  // from the near clipping plane
         c.backfacing[i] = 0;
         c.ray_flags[i] = nodes::ray_camera;
     }

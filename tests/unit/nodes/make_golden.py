@@ -4,9 +4,9 @@
     blender -b --factory-startup -P tests/unit/nodes/make_golden.py -- tests/unit/nodes/golden/blender_3_4.json
     python tests/unit/nodes/make_golden.py -- tests/unit/nodes/golden/blender_5_0.json        (with the bpy wheel)
 
-Every case is one small tilted tile with an emission of the node's output, 4×4 pixels, one sample; all tiles are in one
-picture. A second picture with the positions tells where exactly Cycles sampled. The graph of each case is written as the
-add-on exports it.
+Every case is one small tilted tile with an emission of the node's output, 4×4 pixels, one sample; all tiles are in
+one picture. A second picture with the positions tells where exactly Cycles sampled. The graph of each case is written
+as the add-on exports it.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ sys.path.insert(0, HERE)
 
 from golden_cases import cases  # noqa: E402
 
-TILE = 4       # pixels
-SIZE = 2.0     # of a tile, in scene units
+TILE = 4  # pixels
+SIZE = 2.0  # of a tile, in scene units
 VERSION = tuple(bpy.app.version)
 
 
@@ -63,7 +63,7 @@ class Tile:
         return self._sources["v"]
 
     def source(self, word: str):
-        """v: vector; x y z: components; u: (x + 1)/2; c: colour in [0, 1]; n: unit vector around +z; f: whole numbers."""
+        """v: vector; x y z: components; u: (x + 1)/2; c: colour; n: unit vector around +z; f: whole numbers."""
         if word in self._sources:
             return self._sources[word]
         vector = self.vector()
@@ -223,13 +223,19 @@ def main() -> None:
     for k, (tile, graph) in enumerate(zip(tiles, graphs)):
         x, y = k % columns * TILE, k // columns * TILE
         part = (slice(y, y + TILE), slice(x, x + TILE))
-        entry = {"name": tile.case["name"], "tolerance": tile.case.get("tolerance", 1e-3), "center": tile.center, "graph": graph,
-                 "points": rounded(positions[part]), "values": rounded(values[part])}
+        entry = {
+            "name": tile.case["name"],
+            "tolerance": tile.case.get("tolerance", 1e-3),
+            "center": tile.center,
+            "graph": graph,
+            "points": rounded(positions[part]),
+            "values": rounded(values[part]),
+        }
         found.append(entry)
     with open(target, "w", encoding="utf-8") as file:
         rows_text = ",\n".join(json.dumps(entry, separators=(",", ":")) for entry in found)
-        file.write('{"blender": "%s", "pixel": %r, "half_height": %r, "cases": [\n%s\n]}\n'
-                   % (bpy.app.version_string, SIZE / TILE, rows * SIZE / 2, rows_text))
+        head = json.dumps({"blender": bpy.app.version_string, "pixel": SIZE / TILE, "half_height": rows * SIZE / 2})
+        file.write(f'{head[:-1]}, "cases": [\n{rows_text}\n]}}\n')
     print(f"{len(found)} cases written to {target}")
 
 
@@ -237,4 +243,4 @@ if not bpy.app.background or bpy.data.objects:
     bpy.ops.wm.read_factory_settings(use_empty=True)
 main()
 sys.stdout.flush()
-os._exit(0)   # some wheels hang on the way out
+os._exit(0)  # some wheels hang on the way out

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The optimiser changes no value: programs with and without it agree, on the graphs of the golden files and on random ones.
-#include "nodes/golden_tile.h"
 #include "nodes/chunks.h"
 #include "nodes/compile.h"
 #include "nodes/emit_program.h"
+#include "nodes/golden_tile.h"
 #include "nodes/graphs.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,9 @@ nodes::CompiledGraph compile(const scene::GraphDesc& graph, bool optimise, std::
     return nodes::compile(graph, context, warnings);
 }
 
-void run(const nodes::CompiledGraph& g, test::Machine& m) { isa_w1::run_program(g.of(Purpose::emission), m.chunk, m.out, m.scratch); }
+void run(const nodes::CompiledGraph& g, test::Machine& m) {
+    isa_w1::run_program(g.of(Purpose::emission), m.chunk, m.out, m.scratch);
+}
 
 void expect_same(const test::Machine& a, const test::Machine& b, const std::string& what) {
     for (int k = 0; k < 3; ++k)
@@ -54,7 +56,9 @@ TEST(Optimise, GoldenGraphsKeepTheirValues) {
 /// A graph of continuous nodes with constants that invite folding (0, 1, equal ones) and shared results.
 scene::GraphDesc random_graph(std::mt19937& random) {
     const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-    const auto constant = [&] { return std::array<float, 6>{0, 1, 0.5f, -0.7f, 2, 1}[static_cast<std::size_t>(pick(6))]; };
+    const auto constant = [&] {
+        return std::array<float, 6>{0, 1, 0.5f, -0.7f, 2, 1}[static_cast<std::size_t>(pick(6))];
+    };
     GraphMaker m;
     m.node("ShaderNodeNewGeometry");
     const auto feed = [&](const char* id) {
@@ -64,8 +68,11 @@ scene::GraphDesc random_graph(std::mt19937& random) {
             return;
         }
         const auto& type = m.graph.nodes[static_cast<std::size_t>(from)].type;
-        const char* out = type == "ShaderNodeNewGeometry" ? "Position" : type == "ShaderNodeMath" ? "Value" : type == "ShaderNodeVectorMath" ? "Vector"
-                        : type == "ShaderNodeMix" ? "Result_Color" : "Color";
+        const char* out = type == "ShaderNodeNewGeometry"  ? "Position"
+                          : type == "ShaderNodeMath"       ? "Value"
+                          : type == "ShaderNodeVectorMath" ? "Vector"
+                          : type == "ShaderNodeMix"        ? "Result_Color"
+                                                           : "Color";
         m.link(id, from, out);
     };
     const char* math[] = {"ADD", "SUBTRACT", "MULTIPLY", "MULTIPLY_ADD", "MINIMUM", "SINE", "ABSOLUTE", "SMOOTH_MIN"};
@@ -82,7 +89,9 @@ scene::GraphDesc random_graph(std::mt19937& random) {
                 for (const char* id : {"Vector", "Vector_001", "Vector_002"}) feed(id);
                 break;
             case 2:
-                m.node("ShaderNodeMix").param("data_type", std::string("RGBA")).param("blend_type", std::string(blend[pick(8)]));
+                m.node("ShaderNodeMix")
+                    .param("data_type", std::string("RGBA"))
+                    .param("blend_type", std::string(blend[pick(8)]));
                 for (const char* id : {"Factor_Float", "A_Color", "B_Color"}) feed(id);
                 break;
             default:
@@ -150,7 +159,9 @@ TEST(Optimise, RegistersAreReused) {
     GraphMaker m;
     m.node("ShaderNodeNewGeometry");
     for (int k = 0; k < 20000; ++k)
-        m.node("ShaderNodeVectorMath").param("operation", std::string(k % 2 == 0 ? "SINE" : "COSINE")).link("Vector", k, k == 0 ? "Position" : "Vector");
+        m.node("ShaderNodeVectorMath")
+            .param("operation", std::string(k % 2 == 0 ? "SINE" : "COSINE"))
+            .link("Vector", k, k == 0 ? "Position" : "Vector");
     m.node("ShaderNodeEmission").link("Color", 20000, "Vector");
     std::vector<std::string> names;
     const auto g = compile(m.surface("Emission"), true, names);
@@ -164,8 +175,13 @@ TEST(Optimise, AThousandMaterialsCompileInUnderASecond) {
     for (int k = 0; k < 1000; ++k) {
         GraphMaker m;
         m.node("ShaderNodeTexNoise").value("Scale", {5});
-        m.node("ShaderNodeValToRGB").link("Fac", 0, "Fac").param("ramp", std::vector<double>{0, 0, 0, 0, 1, 1, 1, k * 0.001, 1, 1});
-        m.node("ShaderNodeBsdfPrincipled").param("version", 2.0).link("Base Color", 1, "Color").link("Roughness", 0, "Fac");
+        m.node("ShaderNodeValToRGB")
+            .link("Fac", 0, "Fac")
+            .param("ramp", std::vector<double>{0, 0, 0, 0, 1, 1, 1, k * 0.001, 1, 1});
+        m.node("ShaderNodeBsdfPrincipled")
+            .param("version", 2.0)
+            .link("Base Color", 1, "Color")
+            .link("Roughness", 0, "Fac");
         compile(m.surface("BSDF"), true, names);
     }
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.0);

@@ -25,7 +25,8 @@ std::unique_ptr<test::Machine> run(const scene::GraphDesc& graph, Purpose purpos
 }
 
 TEST(Run, DiffuseGivesOneLobe) {
-    const auto m = run(GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {0.5f, 0.4f, 0.3f, 1}).surface("BSDF"));
+    const auto m =
+        run(GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {0.5f, 0.4f, 0.3f, 1}).surface("BSDF"));
     ASSERT_EQ(m->out.lobes, 1);
     const bsdf::Lobe& lobe = m->lobes[0];
     EXPECT_EQ(lobe.kind, bsdf::LobeKind::diffuse);
@@ -39,20 +40,24 @@ TEST(Run, DiffuseGivesOneLobe) {
 }
 
 TEST(Run, PartialChunkFillsItsLastStep) {
-    const auto m = run(GraphMaker().node("ShaderNodeEmission").value("Color", {1, 2, 3, 1}).value("Strength", {2}).surface("Emission"),
-                       Purpose::emission, 5);
+    const auto m = run(
+        GraphMaker().node("ShaderNodeEmission").value("Color", {1, 2, 3, 1}).value("Strength", {2}).surface("Emission"),
+        Purpose::emission, 5);
     for (int i = 0; i < (5 + CD_ISA_NS::W - 1) / CD_ISA_NS::W * CD_ISA_NS::W; ++i) EXPECT_EQ(m->out.emission[2][i], 6);
 }
 
 TEST(Run, GlassTurnsItsIndexOverInside) {
-    const auto m = run(GraphMaker().node("ShaderNodeBsdfGlass").value("Color", {1, 1, 1, 1}).value("IOR", {1.5f}).surface("BSDF"));
+    const auto m =
+        run(GraphMaker().node("ShaderNodeBsdfGlass").value("Color", {1, 1, 1, 1}).value("IOR", {1.5f}).surface("BSDF"));
     ASSERT_EQ(m->out.lobes, 1);
     for (int i = 0; i < k_chunk; ++i) EXPECT_FLOAT_EQ(m->lobes[0].eta[i], m->chunk.backfacing[i] > 0 ? 1 / 1.5f : 1.5f);
 }
 
 scene::GraphDesc principled(int version, std::initializer_list<std::pair<const char*, float>> values) {
     GraphMaker m;
-    m.node("ShaderNodeBsdfPrincipled").param("version", static_cast<double>(version)).value("Base Color", {0.8f, 0.6f, 0.4f, 1});
+    m.node("ShaderNodeBsdfPrincipled")
+        .param("version", static_cast<double>(version))
+        .value("Base Color", {0.8f, 0.6f, 0.4f, 1});
     for (const auto& [id, v] : values) m.value(id, {v, v, v, 1});
     return m.surface("BSDF");
 }
@@ -77,7 +82,8 @@ TEST(Run, PrincipledTwoDiffuseGetsWhatSpecularLeaves) {
 }
 
 TEST(Run, EmissionUnderACoatNeedsNoLobe) {
-    const auto graph = principled(2, {{"Coat Weight", 1}, {"Emission Color", 1}, {"Emission Strength", 2}, {"Coat IOR", 1.5f}});
+    const auto graph =
+        principled(2, {{"Coat Weight", 1}, {"Emission Color", 1}, {"Emission Strength", 2}, {"Coat IOR", 1.5f}});
     const auto all = run(graph), emission = run(graph, Purpose::emission);
     EXPECT_EQ(emission->out.lobes, 0);
     for (int i = 0; i < k_chunk; ++i) {
