@@ -66,7 +66,7 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
     if not engine.is_preview:
         _stamp(engine, layer.name, entry)
         if arguments.stats:
-            stats_file.add(arguments.stats, entry, core.versions())
+            _write_stats(engine, arguments.stats, entry)
 
 
 def _export(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph,
@@ -101,6 +101,14 @@ def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Ex
     except module.Error as error:
         raise _engine_problem(error) from error
     entry["render_seconds"] = time.monotonic() - start
+
+
+def _write_stats(engine: bpy.types.RenderEngine, path: str, entry: dict[str, Any]) -> None:
+    """A full disk costs the statistics, never the picture."""
+    try:
+        stats_file.add(path, entry, core.versions())
+    except RenderProblem as problem:
+        messages.warn(engine, [str(problem)])
 
 
 def _save_scene(module: ModuleType, exported: export.Exported, path: str) -> None:

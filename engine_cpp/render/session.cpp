@@ -83,7 +83,7 @@ struct Session::Impl {
     std::string message;
     bool finished = false;
     Clock::time_point started, render_started;
-    double build_seconds = 0, render_seconds = 0, first_tile_seconds = 0, cpu_at_start = 0, cpu_total = 0;
+    double build_seconds = 0, render_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0, cpu_at_start = 0, cpu_total = 0;
     std::vector<std::string> scene_warnings;
     trace::BuildStats build_stats;
     path::Counters counters;
@@ -121,6 +121,7 @@ void Session::Impl::finish(Phase p, const std::string& text) {
         phase = p;
         message = text;
         finished = true;
+        elapsed_seconds = seconds_since(started);
         cpu_total = cpu_seconds() - cpu_at_start;
         if (p != Phase::failed && render_started != Clock::time_point{}) render_seconds = seconds_since(render_started);
         for (const Worker& w : workers) {
@@ -163,7 +164,8 @@ void Session::Impl::build() {
     };
     scene = std::make_unique<trace::TraceableScene>(*desc, progress);
     const std::lock_guard lock(state_mutex);
-    scene_warnings = scene->warnings();
+    const auto found = scene->warnings();
+    scene_warnings.insert(scene_warnings.end(), found.begin(), found.end());
     build_stats = scene->stats();
     build_seconds = seconds_since(started);
 }
@@ -234,7 +236,9 @@ void Session::Impl::render_tile(const film::Region& tile, int first_sample, int 
     }
 }
 
-Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width) : impl_(std::make_unique<Impl>(std::move(desc), width)) {
+Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width, std::vector<std::string> notes)
+    : impl_(std::make_unique<Impl>(std::move(desc), width)) {
+    impl_->scene_warnings = std::move(notes);
     impl_->picture = impl_->film.make_frame();
 }
 
@@ -274,7 +278,7 @@ Progress Session::progress() const {
     const std::lock_guard lock(s.state_mutex);
     p.phase = s.phase;
     p.message = s.message;
-    if (s.phase != Phase::waiting) p.elapsed = seconds_since(s.started);
+    if (s.phase != Phase::waiting) p.elapsed = s.finished ? s.elapsed_seconds : seconds_since(s.started);
     if (s.phase == Phase::render) {
         const double spent = seconds_since(s.render_started);
         if (p.fraction > 0.001) p.remaining = spent / p.fraction * (1 - p.fraction);

@@ -33,7 +33,8 @@ using StatsJson = std::string;
 class Session {
 public:
     /// `desc` has passed scene::validate. `width`: lanes, 0 for the best of this machine (tests choose).
-    explicit Session(std::shared_ptr<const scene::SceneDesc> desc, int width = 0);
+    /// `notes`: what validation repaired; they stand first in warnings().
+    explicit Session(std::shared_ptr<const scene::SceneDesc> desc, int width = 0, std::vector<std::string> notes = {});
     /// Cancels and waits.
     ~Session();
     Session(const Session&) = delete;

@@ -98,6 +98,10 @@ class Comparison:
     blocks: list[list[Estimate]] = field(default_factory=list)
     problem: str = ""
 
+    def means_agree(self) -> bool:
+        """Every channel's mean passes, whatever the blocks do."""
+        return bool(self.means) and all(e.verdict(MEAN_BOUND) == "pass" for e in self.means.values())
+
     def worst_mean(self) -> tuple[str, Estimate]:
         return max(self.means.items(), key=lambda item: abs(item[1].difference) + item[1].half_width)
 

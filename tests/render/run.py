@@ -31,6 +31,14 @@ ROUNDS = (8, 24, 64)
 """Seeds a case has been rendered with after each round."""
 REFERENCE_SEED = 1000
 
+KNOWN_DIFFERENCES = {
+    ("3.4", "glass_rough"): "3.4 weighs rough glass by Fresnel at the smooth normal, later versions and Cardioid per facet",
+    ("3.4", "glossy_multi_ggx"): "3.4 walks between facets at random, later versions and Cardioid compensate by albedo",
+    ("3.4", "glossy_beckmann"): "Cardioid has no Beckmann distribution: GGX stands in",
+}
+"""Cases whose blocks differ for a reason that the docs tell. Their means must still pass; they count as skipped, and one
+whose blocks agree fails, so that the list cannot outlive its reasons."""
+
 
 @dataclass
 class Result:
@@ -45,12 +53,23 @@ class Result:
     reference: np.ndarray | None = None
     cpu: dict[str, list[float]] = field(default_factory=lambda: {"ours": [], "reference": []})
     survivors: list[str] = field(default_factory=list)
+    self_check: bool = False
 
     @property
     def verdict(self) -> str:
         if self.problem or self.comparison is None:
             return "fail"
-        return "fail" if self.survivors else self.comparison.verdict
+        if self.survivors:
+            return "fail"
+        if self.known:
+            only_blocks = self.comparison.verdict == "fail" and self.comparison.means_agree()
+            return "known" if only_blocks else "fail"
+        return self.comparison.verdict
+
+    @property
+    def known(self) -> str:
+        """Why this case is allowed to differ in its blocks; empty for all others."""
+        return "" if self.self_check else KNOWN_DIFFERENCES.get((self.host, self.case), "")
 
 
 def evaluate(result: Result, outcome: hosts.Outcome) -> None:
@@ -75,7 +94,9 @@ def run_host(host: hosts.Host, wanted: list[str], engines: tuple[str, str], roun
     """All cases of a host, with more seeds for those that are inconclusive while there is time."""
     listing = host.listing()
     names = [n for n in listing["cases"] if not wanted or n in wanted]
-    results = {n: Result(host.name, n, listing["cases"][n]["about"] or "") for n in names}
+    results = {
+        n: Result(host.name, n, listing["cases"][n]["about"] or "", self_check=engines[0] == engines[1]) for n in names
+    }
     outcome = hosts.Outcome(host, listing, {"ours": engines[0], "reference": engines[1]})
     done, open_cases = 0, names
     for count in rounds:
@@ -134,7 +155,7 @@ def main() -> int:
         results += run_host(
             host, options.case, engines, ROUNDS[:1] if options.quick else ROUNDS, start + options.seconds
         )
-    order = {"fail": 0, "inconclusive": 1, "pass": 2}
+    order = {"fail": 0, "inconclusive": 1, "known": 2, "pass": 3}
     results.sort(key=lambda r: (order[r.verdict], r.host, r.case))
     for result in results:
         print(line(result))
@@ -143,9 +164,13 @@ def main() -> int:
     print(f"{os.path.relpath(options.html)}   {time.monotonic() - start:.0f} s")
     for name in missing:
         print(f"skipped {name}: not installed")
+    known = [r for r in results if r.verdict == "known"]
+    for result in known:
+        print(f"skipped {result.host} {result.case}: {result.known}")
     passed = sum(r.verdict == "pass" for r in results)
-    print(f"{passed} passed, {len(results) - passed} failed, {len(missing)} skipped")
-    return 0 if results and passed == len(results) else 1
+    failed = len(results) - passed - len(known)
+    print(f"{passed} passed, {failed} failed, {len(missing) + len(known)} skipped")
+    return 0 if passed and not failed else 1
 
 
 if __name__ == "__main__":

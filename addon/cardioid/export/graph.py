@@ -41,12 +41,12 @@ class GraphWalk:
         self._open: list[tuple[int, Any, _Place]] = []  # nodes whose inputs are still to be followed
 
     def run(self) -> dict[str, Any]:
-        """The dictionary of docs/python-api.md; without nodes when there is no active output."""
+        """The dictionary of docs/python-api.md; without a surface when there is no active output."""
         graph: dict[str, Any] = {"nodes": self._nodes, "surface": None, "volume": None, "displacement": None}
         output = self._root.tree.get_output_node("CYCLES")
         if output is None:
             self._warn(f"{self._owner}: the node tree has no active output")
-            return graph
+            return self._never_empty(graph)
         for socket in output.inputs:
             slot = socket.identifier.lower()
             if slot in graph:
@@ -55,6 +55,12 @@ class GraphWalk:
         while self._open:
             index, node, place = self._open.pop()
             self._nodes[index]["inputs"] = self._inputs(node, place)
+        return self._never_empty(graph)
+
+    def _never_empty(self, graph: dict[str, Any]) -> dict[str, Any]:
+        """A tree without a shader is black; a graph without nodes would stand for a material without a tree."""
+        if not self._nodes:
+            self._nodes.append({"name": "no shader", "type": "ShaderNodeValue", "params": {}, "inputs": {}})
         return graph
 
     def _inputs(self, node: Any, place: _Place) -> dict[str, Any]:

@@ -4,7 +4,6 @@
 #include "render/replay.h"
 #include "render/session.h"
 #include "scene/error.h"
-#include "scene/limits.h"
 #include "scene/replace_file.h"
 #include "scene/scene_file.h"
 #include "scene/validate.h"
@@ -93,8 +92,6 @@ int run(const Options& o) {
         std::cout << render::replay_sample(*desc, o.pixel[0], o.pixel[1], o.pixel[2]);
         return 0;
     }
-    const std::string memory = scene::memory_problem(*desc);
-    if (!memory.empty()) throw scene::SceneError(memory);
     render::Session session(desc, o.lanes);
     session.start();
     while (!session.wait(0.25)) {

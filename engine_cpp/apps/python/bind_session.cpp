@@ -3,7 +3,6 @@
 #include "apps/python/convert.h"
 #include "render/session.h"
 #include "scene/error.h"
-#include "scene/limits.h"
 
 #include <pybind11/stl.h>
 
@@ -23,16 +22,10 @@ py::array_t<float> pass_array(const FramePointer& frame, const std::string& name
 
 std::unique_ptr<render::Session> make_session(PyScene& s) {
     const PyScene::Validated& v = s.validated();
-    if (scene::has_errors(v.problems)) {
-        std::vector<std::string> errors;
-        for (const auto& p : v.problems) {
-            if (p.severity == scene::Severity::error) errors.push_back(p.message);
-        }
-        throw scene::SceneError(errors);
-    }
-    const std::string memory = scene::memory_problem(*v.desc);
-    if (!memory.empty()) throw scene::SceneError(memory);
-    return std::make_unique<render::Session>(v.desc);
+    std::vector<std::string> errors, notes;
+    for (const auto& p : v.problems) (p.severity == scene::Severity::error ? errors : notes).push_back(p.message);
+    if (!errors.empty()) throw scene::SceneError(errors);
+    return std::make_unique<render::Session>(v.desc, 0, std::move(notes));
 }
 
 py::dict progress_dict(const render::Session& session) {

@@ -14,7 +14,7 @@ _FILES = sorted(_FOLDER.glob("**/*.blend"))
 
 
 @pytest.mark.skipif(not _FILES, reason=f"no .blend files in {_FOLDER}")
-@pytest.mark.parametrize("path", _FILES, ids=lambda p: p.stem)
+@pytest.mark.parametrize("path", _FILES, ids=lambda p: getattr(p, "stem", "none"))
 def test_file_exports(path):
     if path.parent.name == "needs-4" and bpy.app.version < (4, 0):
         pytest.skip("needs Blender 4")
