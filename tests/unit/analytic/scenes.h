@@ -50,7 +50,9 @@ inline scene::MeshDesc quad(Float3 centre, Float3 u, Float3 v) {
 }
 
 /// Square of side `size` in the plane z, facing up, or down for a negative size.
-inline scene::MeshDesc floor_quad(float z, float size) { return quad({0, 0, z}, {size, 0, 0}, {0, std::fabs(size), 0}); }
+inline scene::MeshDesc floor_quad(float z, float size) {
+    return quad({0, 0, z}, {size, 0, 0}, {0, std::fabs(size), 0});
+}
 
 /// Octahedron split `levels` times, vertices on the sphere; `smooth` gives it the sphere's normals.
 inline scene::MeshDesc sphere(Float3 centre, float radius, int levels, bool smooth) {
@@ -66,7 +68,8 @@ inline scene::MeshDesc sphere(Float3 centre, float radius, int levels, bool smoo
         };
         std::vector<std::uint32_t> finer;
         for (std::size_t k = 0; k < t.size(); k += 3) {
-            const std::uint32_t a = t[k], b = t[k + 1], c = t[k + 2], ab = between(a, b), bc = between(b, c), ca = between(c, a);
+            const std::uint32_t a = t[k], b = t[k + 1], c = t[k + 2], ab = between(a, b), bc = between(b, c),
+                                ca = between(c, a);
             finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
         }
         t = finer;
@@ -74,7 +77,9 @@ inline scene::MeshDesc sphere(Float3 centre, float radius, int levels, bool smoo
     scene::MeshDesc m;
     m.name = "sphere";
     m.triangles = t;
-    for (const Float3& q : p) m.positions.insert(m.positions.end(), {centre.x + radius * q.x, centre.y + radius * q.y, centre.z + radius * q.z});
+    for (const Float3& q : p)
+        m.positions.insert(m.positions.end(),
+                           {centre.x + radius * q.x, centre.y + radius * q.y, centre.z + radius * q.z});
     if (smooth) {
         for (const std::uint32_t i : t) m.corner_normals.insert(m.corner_normals.end(), {p[i].x, p[i].y, p[i].z});
     }
@@ -83,26 +88,51 @@ inline scene::MeshDesc sphere(Float3 centre, float radius, int levels, bool smoo
 
 // Graphs --------------------------------------------------------------------------------------------------
 
-inline scene::GraphDesc diffuse(Float3 c) { return GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {c.x, c.y, c.z, 1}).surface("BSDF"); }
+inline scene::GraphDesc diffuse(Float3 c) {
+    return GraphMaker().node("ShaderNodeBsdfDiffuse").value("Color", {c.x, c.y, c.z, 1}).surface("BSDF");
+}
 inline scene::GraphDesc diffuse(float c) { return diffuse(Float3{c, c, c}); }
 inline scene::GraphDesc emission(Float3 c) {
-    return GraphMaker().node("ShaderNodeEmission").value("Color", {c.x, c.y, c.z, 1}).value("Strength", {1}).surface("Emission");
+    return GraphMaker()
+        .node("ShaderNodeEmission")
+        .value("Color", {c.x, c.y, c.z, 1})
+        .value("Strength", {1})
+        .surface("Emission");
 }
 inline scene::GraphDesc emission(float c) { return emission(Float3{c, c, c}); }
 inline scene::GraphDesc glossy(float c, float roughness) {
-    return GraphMaker().node("ShaderNodeBsdfGlossy").value("Color", {c, c, c, 1}).value("Roughness", {roughness}).param("distribution", std::string("GGX")).surface("BSDF");
+    return GraphMaker()
+        .node("ShaderNodeBsdfGlossy")
+        .value("Color", {c, c, c, 1})
+        .value("Roughness", {roughness})
+        .param("distribution", std::string("GGX"))
+        .surface("BSDF");
 }
 inline scene::GraphDesc glass(float c, float ior, float roughness = 0) {
-    return GraphMaker().node("ShaderNodeBsdfGlass").value("Color", {c, c, c, 1}).value("Roughness", {roughness}).value("IOR", {ior}).surface("BSDF");
+    return GraphMaker()
+        .node("ShaderNodeBsdfGlass")
+        .value("Color", {c, c, c, 1})
+        .value("Roughness", {roughness})
+        .value("IOR", {ior})
+        .surface("BSDF");
 }
-inline scene::GraphDesc transparent(float c) { return GraphMaker().node("ShaderNodeBsdfTransparent").value("Color", {c, c, c, 1}).surface("BSDF"); }
-inline scene::GraphDesc translucent(float c) { return GraphMaker().node("ShaderNodeBsdfTranslucent").value("Color", {c, c, c, 1}).surface("BSDF"); }
+inline scene::GraphDesc transparent(float c) {
+    return GraphMaker().node("ShaderNodeBsdfTransparent").value("Color", {c, c, c, 1}).surface("BSDF");
+}
+inline scene::GraphDesc translucent(float c) {
+    return GraphMaker().node("ShaderNodeBsdfTranslucent").value("Color", {c, c, c, 1}).surface("BSDF");
+}
 inline scene::GraphDesc background(float c) {
-    return GraphMaker().node("ShaderNodeBackground").value("Color", {c, c, c, 1}).value("Strength", {1}).surface("Background");
+    return GraphMaker()
+        .node("ShaderNodeBackground")
+        .value("Color", {c, c, c, 1})
+        .value("Strength", {1})
+        .surface("Background");
 }
 
 /// Both surfaces through one mixing node: "ShaderNodeMixShader" (share `fac` of b) or "ShaderNodeAddShader".
-inline scene::GraphDesc combined(const char* type, const scene::GraphDesc& a, const scene::GraphDesc& b, float fac = 0.5f) {
+inline scene::GraphDesc combined(const char* type, const scene::GraphDesc& a, const scene::GraphDesc& b,
+                                 float fac = 0.5f) {
     GraphMaker maker;
     maker.graph.nodes = a.nodes;
     const int shift = static_cast<int>(a.nodes.size());
@@ -112,7 +142,9 @@ inline scene::GraphDesc combined(const char* type, const scene::GraphDesc& a, co
         }
         maker.graph.nodes.push_back(node);
     }
-    maker.node(type).link("Shader", a.surface.node, a.surface.socket).link("Shader_001", b.surface.node + shift, b.surface.socket);
+    maker.node(type)
+        .link("Shader", a.surface.node, a.surface.socket)
+        .link("Shader_001", b.surface.node + shift, b.surface.socket);
     if (std::string(type) == "ShaderNodeMixShader") maker.value("Fac", {fac});
     return maker.surface("Shader");
 }

@@ -49,7 +49,8 @@ TEST(AnalyticCamera, DepthOfFieldKeepsEnergy) {
         int blades;
         float rotation, ratio, focus;
     };
-    for (const Lens lens : {Lens{0, 0, 1, 4}, Lens{0, 0, 1, 2.5f}, Lens{0, 0, 1, 7}, Lens{5, 0.4f, 1, 3}, Lens{3, 0, 2, 3}, Lens{0, 0, 0.5f, 3}}) {
+    for (const Lens lens : {Lens{0, 0, 1, 4}, Lens{0, 0, 1, 2.5f}, Lens{0, 0, 1, 7}, Lens{5, 0.4f, 1, 3},
+                            Lens{3, 0, 2, 3}, Lens{0, 0, 0.5f, 3}}) {
         SceneMaker m = shining_square();
         m.scene.camera->aperture_radius = 0.1f;
         m.scene.camera->focus_distance = lens.focus;
@@ -83,7 +84,8 @@ TEST(AnalyticCamera, BlurIsThatOfTheThinLens) {
 }
 
 TEST(AnalyticCamera, PixelFilterKeepsEnergyAndWidens) {
-    for (const auto filter : {scene::PixelFilter::box, scene::PixelFilter::gaussian, scene::PixelFilter::blackman_harris}) {
+    for (const auto filter :
+         {scene::PixelFilter::box, scene::PixelFilter::gaussian, scene::PixelFilter::blackman_harris}) {
         SceneMaker m = shining_square();
         m.scene.settings.pixel_filter = filter;
         m.scene.settings.filter_width = 3;
@@ -97,7 +99,8 @@ TEST(AnalyticCamera, PixelFilterKeepsEnergyAndWidens) {
 TEST(AnalyticCamera, ClippingIsAlongTheAxis) {
     SceneMaker m = shining_square();
     m.scene.meshes[0] = floor_quad(0, 100);
-    for (const auto& [start, end, seen] : {std::tuple{0.1f, 100.0f, true}, {3.99f, 4.01f, true}, {4.01f, 100.0f, false}, {0.1f, 3.99f, false}}) {
+    for (const auto& [start, end, seen] :
+         {std::tuple{0.1f, 100.0f, true}, {3.99f, 4.01f, true}, {4.01f, 100.0f, false}, {0.1f, 3.99f, false}}) {
         m.scene.camera->clip_start = start;
         m.scene.camera->clip_end = end;
         const auto f = render_frame(m.scene);

@@ -37,7 +37,8 @@ void expect_only(const scene::SceneDesc& scene, std::initializer_list<const char
     const auto f = render_frame(scene);
     expect_exact_sum(*f);
     for (const char* name : k_classes) {
-        const bool expected = std::find_if(lit.begin(), lit.end(), [&](const char* l) { return std::string(l) == name; }) != lit.end();
+        const bool expected =
+            std::find_if(lit.begin(), lit.end(), [&](const char* l) { return std::string(l) == name; }) != lit.end();
         EXPECT_EQ(mean_of(*f, name) > 0, expected) << name;
     }
 }

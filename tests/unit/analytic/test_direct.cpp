@@ -159,7 +159,13 @@ void picture_world(SceneMaker& m, int width, int height, F value) {
         }
     }
     m.scene.images = {image};
-    m.world(GraphMaker().node("ShaderNodeTexEnvironment").param("image", 0.0).node("ShaderNodeBackground").link("Color", 0, "Color").value("Strength", {1}).surface("Background"));
+    m.world(GraphMaker()
+                .node("ShaderNodeTexEnvironment")
+                .param("image", 0.0)
+                .node("ShaderNodeBackground")
+                .link("Color", 0, "Color")
+                .value("Strength", {1})
+                .surface("Background"));
 }
 
 TEST(AnalyticDirect, EnvironmentGradient) {
@@ -174,10 +180,12 @@ TEST(AnalyticDirect, EnvironmentGradient) {
 TEST(AnalyticDirect, EnvironmentBrightSpotComesFromItsDirection) {
     // Column 0.5 of the picture is +x, 0.25 is +y (Blender's equirectangular map): a spot at +y, 30 degrees up.
     const int width = 256, height = 128, column = 64, row = 85;
-    const double elevation = (row + 0.5) / height * k_pi_d - k_pi_d / 2, azimuth = k_pi_d - (column + 0.5) / width * 2 * k_pi_d;
+    const double elevation = (row + 0.5) / height * k_pi_d - k_pi_d / 2,
+                 azimuth = k_pi_d - (column + 0.5) / width * 2 * k_pi_d;
     // Linear interpolation spreads a pixel over the integral of its hat functions: one pixel's solid angle.
     const double solid = 2 * k_pi_d / width * k_pi_d / height * std::cos(elevation);
-    const Float3 toward{static_cast<float>(std::cos(elevation) * std::cos(azimuth)), static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
+    const Float3 toward{static_cast<float>(std::cos(elevation) * std::cos(azimuth)),
+                        static_cast<float>(std::cos(elevation) * std::sin(azimuth)),
                         static_cast<float>(std::sin(elevation))};
     for (const Float3 n : {Float3{0, 0, 1}, Float3{0, 1, 0}, normalize({1, 1, 1})}) {
         SceneMaker m;
@@ -187,7 +195,8 @@ TEST(AnalyticDirect, EnvironmentBrightSpotComesFromItsDirection) {
         picture_world(m, width, height, [&](int i, int j) { return i == column && j == row ? 1000.0f : 0.0f; });
         const double expected = k_rho / k_pi_d * 1000 * solid * static_cast<double>(dot(n, toward));
         expect_value(m.scene, expected, "Combined", 0.015, 2e-3);
-        picture_world(m, width, height, [&](int i, int j) { return i == column - 20 && j == row + 10 ? 1000.0f : 0.0f; });
+        picture_world(m, width, height,
+                      [&](int i, int j) { return i == column - 20 && j == row + 10 ? 1000.0f : 0.0f; });
         expect_not(m.scene, expected);
     }
 }
@@ -213,7 +222,7 @@ TEST(AnalyticDirect, TransparentLayersAttenuateShadows) {
         EXPECT_LT(replicate(m.scene, "D2", 2).mean, 1e-3 * unshadowed) << "more layers than allowed";
         m.scene.settings.max_transparent_bounces = 8;
         m.scene.materials[2].use_transparent_shadow = false;
-        if (area) continue;   // its share found by rays passes
+        if (area) continue;  // its share found by rays passes
         EXPECT_LT(replicate(m.scene, "D2", 2).mean, 1e-3 * unshadowed) << "shadow opaque by the material's switch";
     }
 }

@@ -14,12 +14,14 @@ SceneMaker inside_sphere(bool orthographic) {
     m.add(sphere({0, 0, 0}, 1, 5, true), diffuse(0.5f));
     m.scene.settings.max_bounces = m.scene.settings.max_diffuse_bounces = 64;
     m.scene.settings.samples = 32;
-    if (orthographic) m.probe({0.1f, 0, 0.2f}, {1, 0.1f, 0}, 0.3f);
-    else m.perspective({0.1f, 0, 0.2f}, {1, 0.1f, 0}, 1);
+    if (orthographic)
+        m.probe({0.1f, 0, 0.2f}, {1, 0.1f, 0}, 0.3f);
+    else
+        m.perspective({0.1f, 0, 0.2f}, {1, 0.1f, 0}, 1);
     return m;
 }
 
-constexpr double k_watts_of_pi = 4 * k_pi_d * k_pi_d;   // intensity π
+constexpr double k_watts_of_pi = 4 * k_pi_d * k_pi_d;  // intensity π
 
 TEST(AnalyticIndirect, SphereAroundOnePointLamp) {
     for (const bool orthographic : {false, true}) {
@@ -75,7 +77,8 @@ TEST(AnalyticIndirect, TheBounceLimitCutsTheSeries) {
             m.scene.settings.samples = 64;
             // n bounces: light sampling at the vertex after them, so n + 1 reflections.
             double expected = 0;
-            for (int reflections = 0; reflections <= limit + 1; reflections += 2) expected += std::pow(0.5, reflections);
+            for (int reflections = 0; reflections <= limit + 1; reflections += 2)
+                expected += std::pow(0.5, reflections);
             const statistics::Moments mean = replicate(m.scene, "Combined", 6);
             const statistics::TResult t = statistics::t_test(mean, expected, 1e-3);
             EXPECT_FALSE(t.rejected(k_level)) << limit << ": " << mean.mean << " for " << expected;
@@ -87,7 +90,7 @@ TEST(AnalyticIndirect, TheBounceLimitCutsTheSeries) {
 struct White {
     const char* name;
     scene::GraphDesc graph;
-    double noise;   ///< what the mean may be off with confidence
+    double noise;  ///< what the mean may be off with confidence
 };
 
 std::vector<White> white_materials() {
@@ -110,7 +113,8 @@ TEST(AnalyticIndirect, WhiteThingsVanishInAWhiteWorld) {
         m.world(background(1));
         m.perspective({0, -3, 1}, {0, 0, 0}, 0.3f);
         scene::Settings& s = m.scene.settings;
-        s.max_bounces = s.max_diffuse_bounces = s.max_glossy_bounces = s.max_transmission_bounces = s.max_transparent_bounces = 128;
+        s.max_bounces = s.max_diffuse_bounces = s.max_glossy_bounces = s.max_transmission_bounces =
+            s.max_transparent_bounces = 128;
         s.samples = 64;
         expect_value(m.scene, 1, "Combined", white.noise, 1e-4);
         s.max_bounces = 12;
@@ -209,7 +213,7 @@ SceneMaker slab_scene(float ior) {
     m.add(floor_quad(0.7f, 1000), glass(1, ior));
     m.sun({0.6f, 0, 0.8f}, 5, 0.7f);
     m.probe({0, -0.4f, 0.3f}, {0, 0, 0});
-    m.scene.settings.max_diffuse_bounces = 1;   // what the slab throws back to the floor is another path
+    m.scene.settings.max_diffuse_bounces = 1;  // what the slab throws back to the floor is another path
     m.scene.settings.max_bounces = m.scene.settings.max_transmission_bounces = m.scene.settings.max_glossy_bounces = 64;
     m.scene.settings.samples = 512;
     return m;

@@ -9,7 +9,7 @@ namespace {
 TEST(Limits, ClampDirect) {
     SceneMaker m;
     m.add(floor_quad(0, 100), diffuse(Float3{0.8f, 0.4f, 0.0f}));
-    m.point_lamp({0, 0, 1}, static_cast<float>(4 * k_pi_d * k_pi_d * 10), 0);   // radiance 10 · albedo
+    m.point_lamp({0, 0, 1}, static_cast<float>(4 * k_pi_d * k_pi_d * 10), 0);  // radiance 10 · albedo
     m.probe({0, -1, 1}, {0, 0, 0}, 1e-3f);
     EXPECT_NEAR(replicate(m.scene, "Combined", 1).mean, 8, 0.01);
     m.scene.settings.clamp_direct = 2;

@@ -25,14 +25,14 @@ namespace fs = std::filesystem;
 
 struct Finished {
     int code = -1;
-    std::string output;   ///< both streams
+    std::string output;  ///< both streams
 };
 
 /// Runs the program in the shell with the arguments as they stand.
 Finished run(const std::string& arguments) {
     Finished r;
     const std::string command = std::string("\"") + CARDIOID_RENDER + "\" " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");   // NOLINT(bugprone-command-processor): own temporary paths
+    FILE* pipe = popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): own temporary paths
     if (!pipe) return r;
     std::array<char, 4096> buffer;
     while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) r.output.append(buffer.data(), n);
@@ -81,7 +81,8 @@ TEST_F(Cli, WritesExrWithEveryPass) {
     ASSERT_GT(exr.size(), 1000u);
     EXPECT_EQ(exr.substr(0, 4), "\x76\x2f\x31\x01");
     const std::string header = exr.substr(0, 8000);
-    for (const char* channel : {"Depth.Z", "Normal.X", "D1.R", "D2.G", "D3.B", "C1.R", "C2.B"}) EXPECT_NE(header.find(channel), std::string::npos) << channel;
+    for (const char* channel : {"Depth.Z", "Normal.X", "D1.R", "D2.G", "D3.B", "C1.R", "C2.B"})
+        EXPECT_NE(header.find(channel), std::string::npos) << channel;
     EXPECT_NE(header.find("camera_paths"), std::string::npos) << "statistics are in the file";
     EXPECT_NE(r.output.find("out.exr"), std::string::npos) << "says where the picture went";
 }
@@ -187,7 +188,8 @@ TEST_F(Cli, WrongArgumentsAreExplained) {
 
 TEST_F(Cli, AnOutputThatCannotBeWrittenIsAnError) {
     expect_refusal(run(scene_file + " -q -o " + at("no/such/folder/out.exr")), "error", "no/such/folder");
-    expect_refusal(run(scene_file + " -q -o " + at("out.exr") + " --stats " + at("no/such/folder/s.json")), "error", "no/such/folder");
+    expect_refusal(run(scene_file + " -q -o " + at("out.exr") + " --stats " + at("no/such/folder/s.json")), "error",
+                   "no/such/folder");
 }
 
 }  // namespace

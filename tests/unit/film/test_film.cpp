@@ -67,16 +67,21 @@ TEST(Film, DepthIsThatOfTheFirstSample) {
 }
 
 TEST(Film, EveryNonFiniteFieldIsDropped) {
-    const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+    const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                         -std::numeric_limits<float>::infinity()};
     Film film(frame(2, 2));
     EXPECT_TRUE(film.add(1, 1, sample(2), true));
     for (const float v : bad) {
         for (int field = 0; field < 3 * k_classes + 5; ++field) {
             Sample s = sample(1);
-            if (field < 3 * k_classes) s.radiance[field / 3][field % 3] = v;
-            else if (field == 3 * k_classes) s.alpha = v;
-            else if (field == 3 * k_classes + 1) s.depth = v;
-            else s.normal[field - 3 * k_classes - 2] = v;
+            if (field < 3 * k_classes)
+                s.radiance[field / 3][field % 3] = v;
+            else if (field == 3 * k_classes)
+                s.alpha = v;
+            else if (field == 3 * k_classes + 1)
+                s.depth = v;
+            else
+                s.normal[field - 3 * k_classes - 2] = v;
             EXPECT_FALSE(film.add(1, 1, s, false)) << field;
         }
     }
@@ -144,7 +149,8 @@ TEST(Film, CropHoldsOnlyItsPixels) {
 }
 
 TEST(Film, CropIsClippedToTheFrame) {
-    for (const auto& crop : {std::array<int, 4>{8, 6, 100, 100}, std::array<int, 4>{-5, -5, 3, 3}, std::array<int, 4>{100, 100, 1, 1}}) {
+    for (const auto& crop :
+         {std::array<int, 4>{8, 6, 100, 100}, std::array<int, 4>{-5, -5, 3, 3}, std::array<int, 4>{100, 100, 1, 1}}) {
         scene::Settings settings = frame(10, 8);
         settings.crop = crop;
         const Region r = crop_region(settings);

@@ -30,7 +30,8 @@ int different_pixels(const film::Frame& full, const film::Frame& cropped, int x0
             bool same = true;
             for (std::size_t p = 0; p < full.passes.size(); ++p) {
                 const auto channels = static_cast<std::size_t>(full.passes[p].channels);
-                const float* a = &full.passes[p].data[static_cast<std::size_t>((y + y0) * full.width + x + x0) * channels];
+                const float* a =
+                    &full.passes[p].data[static_cast<std::size_t>((y + y0) * full.width + x + x0) * channels];
                 const float* b = &cropped.passes[p].data[static_cast<std::size_t>(y * cropped.width + x) * channels];
                 same = same && std::memcmp(a, b, channels * sizeof(float)) == 0;
             }
@@ -48,8 +49,11 @@ SceneMaker many_materials() {
     for (int k = 0; k < 60; ++k) {
         const float a = 0.7f * static_cast<float>(k), r = 0.5f + 0.06f * static_cast<float>(k);
         const float shade = 0.5f + 0.008f * static_cast<float>(k);
-        scene::GraphDesc graph = k % 3 == 0 ? glossy(shade, 0.2f) : k % 3 == 1 ? diffuse(shade) : combined("ShaderNodeMixShader", diffuse(shade), glossy(shade, 0.1f));
-        m.add(sphere({r * std::cos(a), r * std::sin(a), 0.03f * static_cast<float>(k) - 1}, 0.35f, 1, k % 2 == 0), graph);
+        scene::GraphDesc graph = k % 3 == 0   ? glossy(shade, 0.2f)
+                                 : k % 3 == 1 ? diffuse(shade)
+                                              : combined("ShaderNodeMixShader", diffuse(shade), glossy(shade, 0.1f));
+        m.add(sphere({r * std::cos(a), r * std::sin(a), 0.03f * static_cast<float>(k) - 1}, 0.35f, 1, k % 2 == 0),
+              graph);
     }
     m.point_lamp({0, 0, 4}, 300, 0.3f);
     m.point_lamp({2, 0, -3}, 200, 0);
@@ -108,8 +112,12 @@ TEST(Determinism, SampleRangesAddUp) {
         const auto& whole = all->find(pass)->data;
         for (std::size_t i = 0; i < whole.size(); ++i) {
             const double expected = static_cast<double>(whole[i]), bound = 2e-6 * std::fabs(expected) + 1e-9;
-            ASSERT_NEAR(0.5 * (static_cast<double>(a->find(pass)->data[i]) + static_cast<double>(b->find(pass)->data[i])), expected, bound);
-            ASSERT_NEAR((static_cast<double>(c->find(pass)->data[i]) + 7 * static_cast<double>(d->find(pass)->data[i])) / 8, expected, bound);
+            ASSERT_NEAR(
+                0.5 * (static_cast<double>(a->find(pass)->data[i]) + static_cast<double>(b->find(pass)->data[i])),
+                expected, bound);
+            ASSERT_NEAR(
+                (static_cast<double>(c->find(pass)->data[i]) + 7 * static_cast<double>(d->find(pass)->data[i])) / 8,
+                expected, bound);
         }
     }
     EXPECT_FALSE(same_bits(*a, *b)) << "the halves are different samples";
@@ -147,12 +155,13 @@ TEST(Widths, MeansAgree) {
     m.scene.settings.width = m.scene.settings.height = 16;
     const auto means = [&](int width, std::uint32_t first) {
         statistics::Moments moments;
-        for (std::uint32_t s = 0; s < 12; ++s) moments.add(mean_of(*render_frame(m.scene, first + s, width)));
+        for (std::uint32_t s = 0; s < 40; ++s) moments.add(mean_of(*render_frame(m.scene, first + s, width)));
         return moments;
     };
     const statistics::Moments one = means(1, 0);
     for (const int width : {8, 16}) {
-        const statistics::TResult t = statistics::welch_test(one, means(width, 100 * static_cast<std::uint32_t>(width)));
+        const statistics::TResult t =
+            statistics::welch_test(one, means(width, 100 * static_cast<std::uint32_t>(width)));
         EXPECT_FALSE(t.rejected(k_level)) << width << ": " << t.difference << " ± " << t.error;
         EXPECT_TRUE(t.equivalent(0.05 * one.mean, 0.02)) << width << ": ± " << t.error;
     }

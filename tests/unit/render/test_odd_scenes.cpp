@@ -101,7 +101,8 @@ TEST(OddScenes, VerticesThatAreNotNumbers) {
 
 TEST(OddScenes, ValuesThatAreNotNumbers) {
     for (const float bad : {k_nan, k_infinity, -k_infinity, -5.0f, 1e30f}) {
-        for (const char* type : {"ShaderNodeBsdfDiffuse", "ShaderNodeBsdfGlossy", "ShaderNodeBsdfGlass", "ShaderNodeBsdfPrincipled", "ShaderNodeEmission"}) {
+        for (const char* type : {"ShaderNodeBsdfDiffuse", "ShaderNodeBsdfGlossy", "ShaderNodeBsdfGlass",
+                                 "ShaderNodeBsdfPrincipled", "ShaderNodeEmission"}) {
             SceneMaker m = lit_floor();
             GraphMaker g;
             g.node(type);
@@ -163,7 +164,7 @@ TEST(OddScenes, MirroredAndFlattenedInstances) {
     scene::InstanceDesc& mirrored = m.add(sphere({0, 0, 0.3f}, 0.2f, 2, true), diffuse(0.5f));
     mirrored.transform.m[0] = -1;
     m.scene.instances.push_back(m.scene.instances.back());
-    m.scene.instances.back().transform.m[10] = 0;   // flat: validation drops or repairs it
+    m.scene.instances.back().transform.m[10] = 0;  // flat: validation drops or repairs it
     m.scene.instances.push_back(m.scene.instances[1]);
     m.scene.instances.back().transform.m[10] = 1e-20f;
     EXPECT_GT(mean_of(*render_repaired(m.scene)), 0);
@@ -171,8 +172,11 @@ TEST(OddScenes, MirroredAndFlattenedInstances) {
 
 TEST(OddScenes, ManyTransparentLayersAndBounces) {
     SceneMaker m = lit_floor();
-    for (int k = 0; k < 40; ++k) m.add(floor_quad(0.02f * static_cast<float>(k + 1), 10), combined("ShaderNodeMixShader", transparent(1), glass(1, 1.2f)));
-    m.scene.settings.max_transparent_bounces = m.scene.settings.max_bounces = m.scene.settings.max_transmission_bounces = 1024;
+    for (int k = 0; k < 40; ++k)
+        m.add(floor_quad(0.02f * static_cast<float>(k + 1), 10),
+              combined("ShaderNodeMixShader", transparent(1), glass(1, 1.2f)));
+    m.scene.settings.max_transparent_bounces = m.scene.settings.max_bounces =
+        m.scene.settings.max_transmission_bounces = 1024;
     m.scene.settings.max_glossy_bounces = 1024;
     m.scene.settings.samples = 8;
     EXPECT_GT(mean_of(*render_repaired(m.scene)), 0);

@@ -27,12 +27,17 @@ int faults(const film::Region& region, const std::vector<film::Region>& list, in
     std::vector<int> covered(static_cast<std::size_t>(region.width * region.height), 0);
     int wrong = 0;
     for (const film::Region& t : list) {
-        if (t.width < 1 || t.height < 1 || t.width * t.height * samples > path::k_batch || t.width > 64 || t.height > 64) ++wrong;
+        if (t.width < 1 || t.height < 1 || t.width * t.height * samples > path::k_batch || t.width > 64 ||
+            t.height > 64)
+            ++wrong;
         for (int y = t.y; y < t.y + t.height; ++y) {
             for (int x = t.x; x < t.x + t.width; ++x) {
-                const bool inside = x >= region.x && y >= region.y && x < region.x + region.width && y < region.y + region.height;
-                if (!inside) ++wrong;
-                else ++covered[static_cast<std::size_t>((y - region.y) * region.width + x - region.x)];
+                const bool inside =
+                    x >= region.x && y >= region.y && x < region.x + region.width && y < region.y + region.height;
+                if (!inside)
+                    ++wrong;
+                else
+                    ++covered[static_cast<std::size_t>((y - region.y) * region.width + x - region.x)];
             }
         }
     }
@@ -46,7 +51,8 @@ TEST(Tiles, CoverEveryPixelOnce) {
             for (int samples = 1; samples <= 8; ++samples) {
                 for (const auto& [x, y] : {std::pair{0, 0}, {5, 11}}) {
                     const film::Region region{x, y, width, height};
-                    ASSERT_EQ(faults(region, tiles(region, samples), samples), 0) << width << " × " << height << ", " << samples;
+                    ASSERT_EQ(faults(region, tiles(region, samples), samples), 0)
+                        << width << " × " << height << ", " << samples;
                 }
             }
         }
