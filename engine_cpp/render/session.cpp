@@ -164,7 +164,8 @@ void Session::Impl::build() {
     };
     scene = std::make_unique<trace::TraceableScene>(*desc, progress);
     const std::lock_guard lock(state_mutex);
-    scene_warnings = scene->warnings();
+    const auto found = scene->warnings();
+    scene_warnings.insert(scene_warnings.end(), found.begin(), found.end());
     build_stats = scene->stats();
     build_seconds = seconds_since(started);
 }
@@ -235,7 +236,9 @@ void Session::Impl::render_tile(const film::Region& tile, int first_sample, int 
     }
 }
 
-Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width) : impl_(std::make_unique<Impl>(std::move(desc), width)) {
+Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width, std::vector<std::string> notes)
+    : impl_(std::make_unique<Impl>(std::move(desc), width)) {
+    impl_->scene_warnings = std::move(notes);
     impl_->picture = impl_->film.make_frame();
 }
 
