@@ -68,7 +68,7 @@ k_arguments = (
     ("--cardioid-threads", "threads", _integer(0), "N", "threads to render with; 0: as Blender is set"),
     ("--cardioid-seed", "seed", _integer(0), "N", "seed of the noise"),
     ("--cardioid-stats", "stats", str, "FILE.json", "write times, counts and memory of each frame there"),
-    ("--cardioid-export", "export", str, "FILE.cardioid", "save the scene for cardioid-render; # is the frame's number"),
+    ("--cardioid-export", "export", str, "FILE.cardioid", "save the scene for cardioid-render; # is the frame number"),
 )
 
 

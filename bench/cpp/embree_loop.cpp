@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
     std::uint64_t hits = 0;
     const auto tiles = render::tiles(film::crop_region(desc.settings), k_samples);
     for (const auto& tile : tiles) {
-        const path::BatchRequest request{&scene.view(), filter.data(), tile.x, tile.y, tile.width, tile.height, 0, k_samples, 0};
+        const path::BatchRequest request{
+            &scene.view(), filter.data(), tile.x, tile.y, tile.width, tile.height, 0, k_samples, 0};
         // The recorded run costs more than a plain one: it is not timed.
         recording.log.n = 0;
         const path::Counters before = scratch->counters;
@@ -85,9 +86,14 @@ int main(int argc, char** argv) {
     }
     const path::Counters& c = scratch->counters;
     const double rays = static_cast<double>(c.rays + c.shadow_rays);
-    const nlohmann::json out = {{"rays", rays}, {"camera_paths", c.camera_paths}, {"hits", hits}, {"engine_cpu_seconds", engine},
-                                {"embree_cpu_seconds", bare}, {"engine_rays_per_cpu_second", rays / engine},
-                                {"rays_per_cpu_second", rays / bare}, {"share_of_bare_embree", bare / engine}};
+    const nlohmann::json out = {{"rays", rays},
+                                {"camera_paths", c.camera_paths},
+                                {"hits", hits},
+                                {"engine_cpu_seconds", engine},
+                                {"embree_cpu_seconds", bare},
+                                {"engine_rays_per_cpu_second", rays / engine},
+                                {"rays_per_cpu_second", rays / bare},
+                                {"share_of_bare_embree", bare / engine}};
     std::cout << out.dump(2) << '\n';
     return 0;
 }

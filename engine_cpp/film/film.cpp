@@ -20,7 +20,9 @@ Region crop_region(const scene::Settings& s) {
 }
 
 Film::Film(const scene::Settings& settings)
-    : region_(crop_region(settings)), exposure_(settings.exposure), transparent_(settings.transparent_film),
+    : region_(crop_region(settings)),
+      exposure_(settings.exposure),
+      transparent_(settings.transparent_film),
       pixels_(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height)) {}
 
 bool Film::add(int x, int y, const Sample& sample, bool first) {

@@ -11,13 +11,13 @@
 
 namespace cardioid::film {
 
-inline constexpr int k_classes = 5;   ///< D1, D2, D3, C1, C2
+inline constexpr int k_classes = 5;  ///< D1, D2, D3, C1, C2
 
 /// One camera path's result.
 struct Sample {
     float radiance[k_classes][3];
     float alpha = 1;
-    float depth = 1e10f;      ///< along the view axis; 1e10: nothing hit
+    float depth = 1e10f;  ///< along the view axis; 1e10: nothing hit
     float normal[3] = {0, 0, 0};
 };
 

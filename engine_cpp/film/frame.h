@@ -8,14 +8,14 @@
 namespace cardioid::film {
 
 struct Pass {
-    std::string name;          ///< Combined, Depth, Normal, D1, D2, D3, C1, C2
+    std::string name;  ///< Combined, Depth, Normal, D1, D2, D3, C1, C2
     int channels = 0;
-    std::vector<float> data;   ///< height × width × channels
+    std::vector<float> data;  ///< height × width × channels
 };
 
 struct Frame {
     int width = 0, height = 0;
-    int samples = 0;           ///< most samples that a pixel has
+    int samples = 0;  ///< most samples that a pixel has
     std::vector<Pass> passes;
     const Pass* find(const std::string& name) const {
         for (const Pass& p : passes) {

@@ -28,7 +28,9 @@ double filter_value(scene::PixelFilter filter, double x, double width) {
 FilterTable make_filter_table(scene::PixelFilter filter, float width) {
     // Cycles' width is a nominal one: the support is twice as wide for Blackman-Harris, three times for the Gaussian.
     const double nominal = std::max(width, 0.01f);
-    const double w = filter == scene::PixelFilter::box ? 1.0 : filter == scene::PixelFilter::gaussian ? 3 * nominal : 2 * nominal;
+    const double w = filter == scene::PixelFilter::box        ? 1.0
+                     : filter == scene::PixelFilter::gaussian ? 3 * nominal
+                                                              : 2 * nominal;
     constexpr int k_fine = 16 * k_filter_steps;
     std::vector<double> cdf(k_fine + 1, 0.0);
     for (int i = 0; i < k_fine; ++i) {

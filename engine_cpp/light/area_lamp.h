@@ -15,9 +15,9 @@ struct SeenArea {
     Float center_x, center_y, half_u, half_v;
     Float tan_half_spread, spread_factor;
     SeenRectangle rect;
-    Mask in_front;      ///< the receiver is on the side that emits, and something of the lamp can light it
-    Mask round;         ///< ellipse
-    Mask by_ellipse;    ///< sampled uniformly over the ellipse's area; otherwise through `rect`
+    Mask in_front;    ///< the receiver is on the side that emits, and something of the lamp can light it
+    Mask round;       ///< ellipse
+    Mask by_ellipse;  ///< sampled uniformly over the ellipse's area; otherwise through `rect`
 };
 
 inline SeenArea see_area(const light::LightData& lights, RecordIndex index, Mask round, Vec3 p, Mask active) {
@@ -85,7 +85,8 @@ inline AreaPoint sample_area(const SeenArea& a, Float u, Float v) {
     out.t2 = fma(a.rect.z, a.rect.z, r2);
     out.radiance_factor = spread_attenuation(a, r2);
     out.pdf = area_pdf(a, out.t2);
-    out.valid = a.in_front & (out.radiance_factor > Float(0.0f)) & (~a.round | a.by_ellipse | inside_ellipse(a, point.x, point.y));
+    out.valid = a.in_front & (out.radiance_factor > Float(0.0f)) &
+                (~a.round | a.by_ellipse | inside_ellipse(a, point.x, point.y));
     return out;
 }
 

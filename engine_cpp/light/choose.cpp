@@ -19,7 +19,8 @@ struct Angle {
 /// max(0, a - b).
 Angle subtract_clamped(Angle a, Angle b) {
     const Mask zero = a.cos > b.cos;
-    return {select(zero, Float(1.0f), fma(a.cos, b.cos, a.sin * b.sin)), select(zero, Float(0.0f), a.sin * b.cos - a.cos * b.sin)};
+    return {select(zero, Float(1.0f), fma(a.cos, b.cos, a.sin * b.sin)),
+            select(zero, Float(0.0f), a.sin * b.cos - a.cos * b.sin)};
 }
 Angle angle_of_cos(Float c) { return {c, safe_sqrt(fma(-c, c, 1.0f))}; }
 
@@ -50,7 +51,8 @@ Float node_importance(const float* records, RecordIndex index, LightReceiver at,
     // A group that just rises above the horizon has most of its lamps under it: its height is the better estimate.
     const Float height = height_above(records, index, at.n, v) * sqrt(inv_size2);
     const Mask arrives = ~one_sided | ((inside | (cos_arrive >= Float(-k_slack))) & (height >= Float(-k_slack)));
-    const Float received = select(one_sided, max(min(select(inside, Float(1.0f), cos_arrive), height), k_least_cosine), Float(1.0f));
+    const Float received =
+        select(one_sided, max(min(select(inside, Float(1.0f), cos_arrive), height), k_least_cosine), Float(1.0f));
 
     const Float value = fetch(records, index, node::energy) * emitted * received * inv_size2;
     return select(leaves & arrives, value, Float(0.0f));
@@ -71,8 +73,9 @@ void weigh_entries(const light::LightData& lights, LightReceiver at, EntryWeight
     const Mask one_sided = is_one_sided(at);
     for (int k = 0; k < lights.entry_count; ++k) {
         const int offset = lights.entry_node[k] * light::k_node_floats;
-        out.weight[k] = lights.entry_is_world[k] ? Float(lights.nodes.record[offset + node::energy])
-                                                 : node_importance(lights.nodes.record, {Int(0), offset}, at, one_sided);
+        out.weight[k] = lights.entry_is_world[k]
+                            ? Float(lights.nodes.record[offset + node::energy])
+                            : node_importance(lights.nodes.record, {Int(0), offset}, at, one_sided);
         out.total += out.weight[k];
     }
 }
@@ -84,7 +87,8 @@ void weigh_children(const light::LightData& lights, Int first, LightReceiver at,
     for (int k = 0; k < light::k_tree_width; ++k) {
         out.weight[k] = node_importance(lights.nodes.record, index, at, one_sided);
         out.total += out.weight[k];
-        index = {index.offset + Int(light::k_node_floats), index.uniform >= 0 ? index.uniform + light::k_node_floats : -1};
+        index = {index.offset + Int(light::k_node_floats),
+                 index.uniform >= 0 ? index.uniform + light::k_node_floats : -1};
     }
 }
 
@@ -122,7 +126,8 @@ Position pick_entry(const light::LightData& lights, LightReceiver at, Float u, M
     weigh_entries(lights, at, w);
     const Turn turn = take_turn(w, lights.entry_count, u);
     Int picked = Int(lights.entry_node[0]);
-    for (int k = 1; k < lights.entry_count; ++k) picked = select(turn.which == Int(k), Int(lights.entry_node[k]), picked);
+    for (int k = 1; k < lights.entry_count; ++k)
+        picked = select(turn.which == Int(k), Int(lights.entry_node[k]), picked);
     return {picked, turn.u, turn.chance, turn.possible & active};
 }
 
@@ -167,7 +172,8 @@ Float pick_probability(const light::LightData& lights, LightReceiver at, Int emi
         EntryWeights w;
         weigh_entries(lights, at, w);
         Float weight = 0.0f;
-        for (int k = 0; k < lights.entry_count; ++k) weight = select(at_node == Int(lights.entry_node[k]), w.weight[k], weight);
+        for (int k = 0; k < lights.entry_count; ++k)
+            weight = select(at_node == Int(lights.entry_node[k]), w.weight[k], weight);
         pmf *= select(w.total > Float(0.0f), weight / w.total, Float(0.0f));
     }
     return select(active, pmf, Float(0.0f));

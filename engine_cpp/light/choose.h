@@ -10,8 +10,8 @@ namespace cardioid::CD_ISA_NS {
 struct EmitterPick {
     Int emitter;
     Float pmf;
-    Float u;      ///< what the choice left of the random number: uniform in [0,1) again
-    Mask valid;   ///< false: no emitter can light the receiver
+    Float u;     ///< what the choice left of the random number: uniform in [0,1) again
+    Mask valid;  ///< false: no emitter can light the receiver
 };
 
 /// u in [0,1).

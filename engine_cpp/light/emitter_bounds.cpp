@@ -52,8 +52,9 @@ float split_cost(const EmitterBounds& b) {
     const float area = d.x * d.y + d.y * d.z + d.z * d.x;
     const float theta_w = std::min(b.theta_o + b.theta_e, k_pi);
     const float solid_angle = 2 * k_pi * (1 - std::cos(b.theta_o)) +
-                              0.5f * k_pi * (2 * theta_w * std::sin(b.theta_o) - std::cos(b.theta_o - 2 * theta_w) -
-                                             2 * b.theta_o * std::sin(b.theta_o) + std::cos(b.theta_o));
+                              0.5f * k_pi *
+                                  (2 * theta_w * std::sin(b.theta_o) - std::cos(b.theta_o - 2 * theta_w) -
+                                   2 * b.theta_o * std::sin(b.theta_o) + std::cos(b.theta_o));
     // A line or a point of lamps has no area; its length still tells good splits from bad ones.
     const float size = area + 1e-3f * dot(d, d);
     return b.energy * size * (solid_angle + 1e-3f);

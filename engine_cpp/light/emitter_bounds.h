@@ -10,11 +10,11 @@ namespace cardioid::light {
 
 struct EmitterBounds {
     Float3 lower{1e30f, 1e30f, 1e30f}, upper{-1e30f, -1e30f, -1e30f};
-    float radius_squared = -1;   ///< of the bounding sphere around the middle of the box; < 0: the box's own
+    float radius_squared = -1;  ///< of the bounding sphere around the middle of the box; < 0: the box's own
     Float3 axis{0, 0, 1};
-    float theta_o = 0;           ///< normals lie within this angle of the axis, 0 … pi
-    float theta_e = 0;           ///< light leaves within this angle of a normal, 0 … pi/2
-    float energy = 0;            ///< >= 0; intensity along the normal; 0: nothing here
+    float theta_o = 0;  ///< normals lie within this angle of the axis, 0 … pi
+    float theta_e = 0;  ///< light leaves within this angle of a normal, 0 … pi/2
+    float energy = 0;   ///< >= 0; intensity along the normal; 0: nothing here
 
     Float3 center() const { return (lower + upper) * 0.5f; }
     float sphere_radius_squared() const {

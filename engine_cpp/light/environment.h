@@ -8,7 +8,7 @@ namespace cardioid::CD_ISA_NS {
 
 struct EnvironmentSample {
     Vec3 wi;
-    Float pdf;   ///< without the choice of the world among the emitters
+    Float pdf;  ///< without the choice of the world among the emitters
 };
 
 EnvironmentSample sample_environment(const light::LightData& lights, LightReceiver at, Float u, Float v);

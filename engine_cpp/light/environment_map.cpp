@@ -17,7 +17,9 @@ constexpr int k_fine = 4;
 struct Grid {
     int width, height;
     std::vector<float> value;
-    float& at(int x, int y) { return value[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+    float& at(int x, int y) {
+        return value[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
     float at(int x, int y) const {
         return value[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
     }
@@ -81,18 +83,22 @@ void refine_bright_cells(Grid& g, Evaluator& eval, float mean) {
             for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, g.height - 1); ++ny) {
                 for (int dx = -1; dx <= 1; ++dx) {
                     const int nx = (x + dx + g.width) % g.width;
-                    chosen[static_cast<std::size_t>(ny) * static_cast<std::size_t>(g.width) + static_cast<std::size_t>(nx)] = 1;
+                    chosen[static_cast<std::size_t>(ny) * static_cast<std::size_t>(g.width) +
+                           static_cast<std::size_t>(nx)] = 1;
                 }
             }
         }
     }
     for (int y = 0; y < g.height; ++y) {
         for (int x = 0; x < g.width; ++x) {
-            if (chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.width) + static_cast<std::size_t>(x)] == 0) continue;
+            if (chosen[static_cast<std::size_t>(y) * static_cast<std::size_t>(g.width) + static_cast<std::size_t>(x)] ==
+                0)
+                continue;
             float& sum = g.at(x, y);
             sum = 0;
             for (int i = 0; i < k_fine * k_fine; ++i) {
-                eval.add(direction_in(g, x, y, (i % k_fine + 0.5) / k_fine, (i / k_fine + 0.5) / k_fine), 1.0f / (k_fine * k_fine), sum);
+                eval.add(direction_in(g, x, y, (i % k_fine + 0.5) / k_fine, (i / k_fine + 0.5) / k_fine),
+                         1.0f / (k_fine * k_fine), sum);
             }
         }
     }
@@ -139,7 +145,8 @@ EnvironmentMap make_environment_map(const EnvironmentEval& eval, int resolution)
     for (int y = 0; y < g.height; ++y) {
         for (int x = 0; x < g.width; ++x) row[static_cast<std::size_t>(x)] = g.at(x, y) + k_floor * mean;
         const auto i = static_cast<std::size_t>(y);
-        row_weight[i] = write_cdf(row.data(), g.width, map.conditional.data() + i * (columns + 1)) * (border_z(g, y) - border_z(g, y + 1));
+        row_weight[i] = write_cdf(row.data(), g.width, map.conditional.data() + i * (columns + 1)) *
+                        (border_z(g, y) - border_z(g, y + 1));
         map.row_z[i] = static_cast<float>(border_z(g, y));
     }
     map.row_z[rows] = -1;

@@ -9,11 +9,11 @@
 namespace cardioid::light {
 
 struct EnvironmentMap {
-    int width = 0, height = 0;           ///< 0: the world is black
-    std::vector<float> conditional;      ///< (width + 1) per row, from 0 to 1
-    std::vector<float> marginal;         ///< height + 1, from 0 to 1
-    std::vector<float> row_z;            ///< height + 1: z at the borders of rows, from 1 to -1
-    float irradiance = 0;                ///< mean over the sphere of the brightness, times pi
+    int width = 0, height = 0;       ///< 0: the world is black
+    std::vector<float> conditional;  ///< (width + 1) per row, from 0 to 1
+    std::vector<float> marginal;     ///< height + 1, from 0 to 1
+    std::vector<float> row_z;        ///< height + 1: z at the borders of rows, from 1 to -1
+    float irradiance = 0;            ///< mean over the sphere of the brightness, times pi
 };
 
 /// `resolution`: columns; rows are half of them. Asks `eval` for 1 to 16 directions a cell (more where it is bright).

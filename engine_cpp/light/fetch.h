@@ -9,7 +9,7 @@ namespace cardioid::CD_ISA_NS {
 /// Which record each lane wants, as an offset into an array with `stride` numbers a record.
 struct RecordIndex {
     Int offset;
-    int uniform;   ///< offset of all lanes, or -1 where they differ
+    int uniform;  ///< offset of all lanes, or -1 where they differ
 };
 
 /// Inactive lanes read the record of some active lane, so every offset exists.

@@ -15,20 +15,21 @@ struct LightReceiver {
 };
 
 struct LightSample {
-    Vec3 wi;             ///< unit, toward the light
-    Float distance;      ///< 1e30 for the world and the sun
+    Vec3 wi;                ///< unit, toward the light
+    Float distance;         ///< 1e30 for the world and the sun
     Vec3 position, normal;  ///< on the emitter (world: direction, 0; sun: direction, away from it)
-    Spectrum radiance;   ///< toward the receiver; where program >= 0 it multiplies that program's emission
+    Spectrum radiance;      ///< toward the receiver; where program >= 0 it multiplies that program's emission
     Float pdf;
-    Mask valid;          ///< false: nothing to add
-    Mask delta;          ///< no BSDF-sampled ray finds this lamp (size zero, or without MIS): the sample has the full MIS weight.
-                         ///< Size zero: radiance is an intensity already divided by distance², pdf is the choice's alone
-    Int emitter;         ///< id in LightData
-    Int program;         ///< emission program still to be evaluated at (position, barycentrics, instance, triangle), or -1
-    Int instance, triangle;  ///< -1 unless a triangle
+    Mask valid;  ///< false: nothing to add
+    Mask
+        delta;  ///< no BSDF-sampled ray finds this lamp (size zero, or without MIS): the sample has the full MIS weight.
+                ///< Size zero: radiance is an intensity already divided by distance², pdf is the choice's alone
+    Int emitter;  ///< id in LightData
+    Int program;  ///< emission program still to be evaluated at (position, barycentrics, instance, triangle), or -1
+    Int instance, triangle;              ///< -1 unless a triangle
     Float barycentric_u, barycentric_v;  ///< weights of the triangle's second and third corner
-    Int visibility;      ///< scene::Visibility bits of the lamp or world
-    Int max_bounces;     ///< bounces after which the lamp gives no light
+    Int visibility;                      ///< scene::Visibility bits of the lamp or world
+    Int max_bounces;                     ///< bounces after which the lamp gives no light
     Mask casts_shadow;
     Mask infinite;
 };
@@ -39,7 +40,8 @@ LightSample sample_light(const light::LightData& lights, LightReceiver at, Vec2 
 
 /// Density with which sample_light at `at` would have made this hit on emissive triangle (instance, triangle):
 /// hit point and unit geometric normal of the triangle are given. 0 if it is not in the table.
-Float pdf_triangle(const light::LightData& lights, LightReceiver at, Int instance, Int triangle, Vec3 hit, Vec3 hit_normal, Mask active);
+Float pdf_triangle(const light::LightData& lights, LightReceiver at, Int instance, Int triangle, Vec3 hit,
+                   Vec3 hit_normal, Mask active);
 
 /// Density of the unit direction `d` for the world.
 Float pdf_environment(const light::LightData& lights, LightReceiver at, Vec3 d, Mask active);
@@ -47,13 +49,14 @@ Float pdf_environment(const light::LightData& lights, LightReceiver at, Vec3 d, 
 /// A lamp crossed by the ray (o, d), 0 < t < t_max. Lamps do not occlude.
 struct LampHit {
     Mask hit;
-    Float t;                 ///< 1e30 for a sun
+    Float t;  ///< 1e30 for a sun
     Vec3 position, normal;
-    Spectrum radiance;       ///< times the lamp's program where program >= 0
-    Float pdf;               ///< as sample_light's, 0 where the lamp is not MIS-sampled
+    Spectrum radiance;  ///< times the lamp's program where program >= 0
+    Float pdf;          ///< as sample_light's, 0 where the lamp is not MIS-sampled
     int program;
     int max_bounces;
-    std::uint8_t visibility; ///< scene::Visibility bits of the rays that may hit it (without use_mis: the camera at most)
+    std::uint8_t
+        visibility;  ///< scene::Visibility bits of the rays that may hit it (without use_mis: the camera at most)
 };
 /// Number of lamps with a surface (sun included, at infinity). A short list can be looped over for every ray that left by
 /// BSDF sampling; LampWalk skips the far ones of a long list.

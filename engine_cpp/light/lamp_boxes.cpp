@@ -58,7 +58,8 @@ LampBoxTree build_lamp_boxes(std::vector<LampBox> lamps, int offset) {
         const std::size_t middle = (range.begin + range.end) / 2;
         const auto at = [&](std::size_t i) { return lamps.begin() + static_cast<std::ptrdiff_t>(i); };
         std::stable_sort(at(range.begin), at(range.end), [axis](const LampBox& a, const LampBox& b) {
-            return component(a.lower, axis) + component(a.upper, axis) < component(b.lower, axis) + component(b.upper, axis);
+            return component(a.lower, axis) + component(a.upper, axis) <
+                   component(b.lower, axis) + component(b.upper, axis);
         });
         const std::size_t child = tree.first.size();
         add_nodes(tree, 2);

@@ -16,9 +16,9 @@ struct LampBox {
 
 /// Nodes as LightData wants them; leaves name runs of `lamps` that begin at `offset` + their position there.
 struct LampBoxTree {
-    std::vector<float> box;               ///< min, max
+    std::vector<float> box;  ///< min, max
     std::vector<std::int32_t> first, count;
-    std::vector<std::int32_t> lamps;      ///< in the order of the leaves
+    std::vector<std::int32_t> lamps;  ///< in the order of the leaves
 };
 
 LampBoxTree build_lamp_boxes(std::vector<LampBox> lamps, int offset);

@@ -13,7 +13,8 @@ using light::LightData;
 
 constexpr float k_infinity = 1e30f;
 
-void hit_area(const LightData& lights, RecordIndex index, LightReceiver from, Vec3 d, Mask round, Mask active, LampHit& h) {
+void hit_area(const LightData& lights, RecordIndex index, LightReceiver from, Vec3 d, Mask round, Mask active,
+              LampHit& h) {
     const SeenArea area = see_area(lights, index, round, from.p, active);
     const Float toward = -dot(d, area.normal);
     h.t = area.rect.z / max(toward, 1e-20f);
@@ -28,7 +29,8 @@ void hit_area(const LightData& lights, RecordIndex index, LightReceiver from, Ve
     h.normal = area.normal;
 }
 
-void hit_point_lamp(const LightData& lights, RecordIndex index, LightReceiver from, Vec3 d, Mask disk, Int flags, Mask active, LampHit& h) {
+void hit_point_lamp(const LightData& lights, RecordIndex index, LightReceiver from, Vec3 d, Mask disk, Int flags,
+                    Mask active, LampHit& h) {
     const SeenBall ball = see_ball(lights, index, disk, flags, from.p);
     const BallHit hit = hit_ball(ball, d);
     const Float factor = select(ball.within, Float(1.0f), spot_attenuation(lights, index, flags, d));
@@ -51,7 +53,8 @@ void hit_sun(const LightData& lights, RecordIndex index, Vec3 d, Int flags, Mask
     h.normal = -d;
 }
 
-void hit_kind(const LightData& lights, EmitterKind kind, RecordIndex index, LightReceiver from, Vec3 d, Int flags, Mask active, LampHit& h) {
+void hit_kind(const LightData& lights, EmitterKind kind, RecordIndex index, LightReceiver from, Vec3 d, Int flags,
+              Mask active, LampHit& h) {
     switch (kind) {
         case EmitterKind::sphere: hit_point_lamp(lights, index, from, d, mask_of(false), flags, active, h); return;
         case EmitterKind::facing_disk: hit_point_lamp(lights, index, from, d, mask_of(true), flags, active, h); return;

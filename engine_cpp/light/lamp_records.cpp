@@ -49,7 +49,9 @@ void make_point(const LampInput& in, LampRecord& r) {
     const LightDesc& d = in.desc;
     const float radius = std::fabs(d.radius) < k_least_radius ? 0 : std::fabs(d.radius);
     const bool disk = d.legacy_lamp || in.soft_falloff;
-    const EmitterKind kind = radius == 0 ? EmitterKind::delta_point : disk ? EmitterKind::facing_disk : EmitterKind::sphere;
+    const EmitterKind kind = radius == 0 ? EmitterKind::delta_point
+                             : disk      ? EmitterKind::facing_disk
+                                         : EmitterKind::sphere;
     // Watts leave a sphere of area 4 pi r²; the facing disk has the same intensity on its axis.
     const float unit_area = radius == 0 ? 4.0f : 4 * k_pi * radius * radius;
     const Float3 value = d.color * (d.energy / (k_pi * (d.normalize ? unit_area : 1.0f)));
@@ -92,7 +94,8 @@ void make_spot(const LampInput& in, LampRecord& r) {
         put(r, lamp::spot_rows, {inv.m[0], inv.m[1], inv.m[2]});
         put(r, lamp::spot_rows + 3, {inv.m[4], inv.m[5], inv.m[6]});
         put(r, lamp::spot_rows + 6, Float3{inv.m[8], inv.m[9], inv.m[10]} * -1.0f);
-        const float u2 = dot(t.column(0), t.column(0)), v2 = dot(t.column(1), t.column(1)), w2 = dot(t.column(2), t.column(2));
+        const float u2 = dot(t.column(0), t.column(0)), v2 = dot(t.column(1), t.column(1)),
+                    w2 = dot(t.column(2), t.column(2));
         const float slope = std::tan(half);
         cos_wide = half >= k_pi / 2 - 1e-4f ? 0.0f : 1 / std::sqrt(1 + slope * slope * std::max(u2, v2) / w2);
         // A sheared cone leans away from its axis: then the whole half space is kept.
@@ -189,7 +192,8 @@ void make_area(const LampInput& in, LampRecord& r) {
     for (const float a : {-1.0f, 1.0f}) {
         for (const float b : {-1.0f, 1.0f}) extend(r.bounds, at + u * (a * half_u) + v * (b * half_v));
     }
-    r.bounds.radius_squared = round ? std::max(half_u, half_v) * std::max(half_u, half_v) : half_u * half_u + half_v * half_v;
+    r.bounds.radius_squared =
+        round ? std::max(half_u, half_v) * std::max(half_u, half_v) : half_u * half_u + half_v * half_v;
     r.bounds.axis = emits;
     const float peak = r.value[lamp::tan_half_spread] * r.value[lamp::spread_factor];
     r.bounds.energy = mean_absolute(value * in.program_estimate) * area * peak;
@@ -222,7 +226,8 @@ LampRecord make_lamp_record(const LampInput& in, Float3 scene_min, Float3 scene_
     const bool gives_light = r.bounds.energy > 0 && std::isfinite(r.bounds.energy);
     r.hittable = r.hittable && gives_light && r.number[lamp::hit_visibility] != 0;
     if (!r.hittable || !d.use_mis) r.number[lamp::flags] |= lamp::never_hit;
-    const int lighting = scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission | scene::visible_volume;
+    const int lighting =
+        scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission | scene::visible_volume;
     if (!gives_light || (d.visibility & lighting) == 0) r.bounds.energy = 0;
     return r;
 }

@@ -12,7 +12,7 @@ namespace cardioid::light {
 struct LampRecord {
     float value[k_lamp_floats] = {};
     std::int32_t number[k_lamp_ints] = {};
-    EmitterBounds bounds;      ///< energy 0: the lamp is never chosen; a sun's are those of one far away
+    EmitterBounds bounds;         ///< energy 0: the lamp is never chosen; a sun's are those of one far away
     Float3 box_lower, box_upper;  ///< of the surface that rays can hit
     bool hittable = false;
 

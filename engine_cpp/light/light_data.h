@@ -10,9 +10,9 @@ namespace cardioid::light {
 
 /// How an emitter is sampled.
 enum class EmitterKind : std::int32_t {
-    delta_point,   ///< point or spot lamp of size zero
-    sphere,        ///< point or spot with a radius
-    facing_disk,   ///< point or spot as a disk that faces the receiver (Blender before 4.0, "Soft Falloff" since)
+    delta_point,  ///< point or spot lamp of size zero
+    sphere,       ///< point or spot with a radius
+    facing_disk,  ///< point or spot as a disk that faces the receiver (Blender before 4.0, "Soft Falloff" since)
     rectangle,
     ellipse,
     delta_sun,
@@ -24,27 +24,34 @@ enum class EmitterKind : std::int32_t {
 /// Lamp record: k_lamp_floats floats.
 namespace lamp {
 enum Field {
-    position = 0,          ///< 3; sun: unit direction toward the sun
-    radiance = 3,          ///< 3; delta: intensity (sun: irradiance)
+    position = 0,  ///< 3; sun: unit direction toward the sun
+    radiance = 3,  ///< 3; delta: intensity (sun: irradiance)
     radius = 6,
     radius_squared = 7,
-    normal = 8,            ///< 3; area: side that emits; spot: axis; sun: away from the sun
-    axis_u = 11,           ///< 3; area: unit
+    normal = 8,   ///< 3; area: side that emits; spot: axis; sun: away from the sun
+    axis_u = 11,  ///< 3; area: unit
     half_u = 14,
-    axis_v = 15,           ///< 3
+    axis_v = 15,  ///< 3
     half_v = 18,
-    inv_area = 19,         ///< area
-    tan_half_spread = 20,  ///< area: k_no_spread without spread
-    spread_factor = 21,    ///< area: attenuation is (tan_half_spread - tan) * spread_factor
-    spot_rows = 11,        ///< 9; rows of the inverse of the linear part, z negated
-    spot_cos = 20,         ///< cosine of the half cone angle
-    spot_inv_blend = 21,   ///< 1 / width of the blend in cosine
+    inv_area = 19,            ///< area
+    tan_half_spread = 20,     ///< area: k_no_spread without spread
+    spread_factor = 21,       ///< area: attenuation is (tan_half_spread - tan) * spread_factor
+    spot_rows = 11,           ///< 9; rows of the inverse of the linear part, z negated
+    spot_cos = 20,            ///< cosine of the half cone angle
+    spot_inv_blend = 21,      ///< 1 / width of the blend in cosine
     spot_one_minus_cos = 22,  ///< of a cone around `normal` that holds all the light
     sun_one_minus_cos = 11,
-    sun_inv_tan_area = 12, ///< legacy sun: 1/(pi tan^2) of its half angle
+    sun_inv_tan_area = 12,  ///< legacy sun: 1/(pi tan^2) of its half angle
 };
 inline constexpr float k_no_spread = 1e30f;
-enum Flag : std::int32_t { is_spot = 1, spot_cosine = 2, legacy_sun = 4, no_shadow = 8, has_spread = 16, never_hit = 32 };
+enum Flag : std::int32_t {
+    is_spot = 1,
+    spot_cosine = 2,
+    legacy_sun = 4,
+    no_shadow = 8,
+    has_spread = 16,
+    never_hit = 32
+};
 enum IntField { kind = 0, program = 1, flags = 2, visibility = 3, max_bounces = 4, hit_visibility = 5 };
 }  // namespace lamp
 inline constexpr int k_lamp_floats = 24;
@@ -62,13 +69,13 @@ inline constexpr int k_triangle_ints = 4;
 /// intensity. A record is one cache line.
 namespace node {
 enum Field {
-    center = 0,        ///< 3; suns stand far away
+    center = 0,  ///< 3; suns stand far away
     radius_squared = 3,
-    axis = 4,          ///< 3
-    cos_o = 7,         ///< normals lie within this angle of the axis
-    cos_e = 8,         ///< light leaves within this angle of a normal
-    energy = 9,        ///< mean |radiance| × area, summed: intensity along the normal; world: irradiance
-    half_size = 10,    ///< 3; of the bounding box around the same center
+    axis = 4,        ///< 3
+    cos_o = 7,       ///< normals lie within this angle of the axis
+    cos_e = 8,       ///< light leaves within this angle of a normal
+    energy = 9,      ///< mean |radiance| × area, summed: intensity along the normal; world: irradiance
+    half_size = 10,  ///< 3; of the bounding box around the same center
 };
 }  // namespace node
 inline constexpr int k_node_floats = 16;
@@ -79,9 +86,9 @@ inline constexpr int k_tree_width = 8;
 
 /// Nodes of all trees; the k_tree_width children of a node are neighbours, those that are missing have no energy.
 struct NodeArrays {
-    const float* record = nullptr;          ///< k_node_floats each
-    const std::int32_t* child = nullptr;    ///< first child; ~emitter for a leaf
-    const std::int32_t* parent = nullptr;   ///< -1: an entry
+    const float* record = nullptr;         ///< k_node_floats each
+    const std::int32_t* child = nullptr;   ///< first child; ~emitter for a leaf
+    const std::int32_t* parent = nullptr;  ///< -1: an entry
 };
 
 /// At most this many entries are weighed first: the top of the tree of lamps and triangles, that of the suns, the world.
@@ -89,16 +96,16 @@ inline constexpr int k_max_entries = 2 * k_tree_width + 1;
 
 /// World: one colour, or a latitude-longitude grid whose rows are uniform in the polar angle and cells uniform in solid angle.
 struct EnvironmentData {
-    std::int32_t emitter = -1;              ///< -1: the world is not sampled
+    std::int32_t emitter = -1;  ///< -1: the world is not sampled
     bool constant = true;
     float color[3] = {0, 0, 0};
     std::int32_t program = -1;
     std::int32_t visibility = 63;
     std::int32_t max_bounces = 1024;
     int width = 0, height = 0;
-    const float* conditional = nullptr;     ///< (width + 1) per row, 0 … 1
-    const float* marginal = nullptr;        ///< height + 1, 0 … 1
-    const float* row_z = nullptr;           ///< height + 1: z of the row borders, 1 … -1
+    const float* conditional = nullptr;  ///< (width + 1) per row, 0 … 1
+    const float* marginal = nullptr;     ///< height + 1, 0 … 1
+    const float* row_z = nullptr;        ///< height + 1: z of the row borders, 1 … -1
 };
 
 struct LightData {
@@ -110,19 +117,19 @@ struct LightData {
     const std::int32_t* triangle_int = nullptr;
     EnvironmentData environment;
 
-    int entry_count = 0;                    ///< 0: nothing to sample
-    std::int32_t entry_node[k_max_entries] = {};     ///< a leaf (one emitter) or the top of a part of a tree
+    int entry_count = 0;                          ///< 0: nothing to sample
+    std::int32_t entry_node[k_max_entries] = {};  ///< a leaf (one emitter) or the top of a part of a tree
     bool entry_is_world[k_max_entries] = {};
     NodeArrays nodes;
     const std::int32_t* leaf_of = nullptr;  ///< node of each emitter, -1: never chosen
 
     int hittable_count = 0;
-    int hittable_suns = 0;                  ///< the first ones of the list
-    const std::int32_t* hittable = nullptr; ///< lamp ids
-    int box_count = 0;                      ///< nodes of the tree over the finite hittable lamps
-    const float* box = nullptr;             ///< 6 floats a node: min, max
-    const std::int32_t* box_first = nullptr;///< inner: first of two children; leaf: first lamp of `hittable`
-    const std::int32_t* box_lamps = nullptr;///< lamps of a leaf; 0: an inner node
+    int hittable_suns = 0;                    ///< the first ones of the list
+    const std::int32_t* hittable = nullptr;   ///< lamp ids
+    int box_count = 0;                        ///< nodes of the tree over the finite hittable lamps
+    const float* box = nullptr;               ///< 6 floats a node: min, max
+    const std::int32_t* box_first = nullptr;  ///< inner: first of two children; leaf: first lamp of `hittable`
+    const std::int32_t* box_lamps = nullptr;  ///< lamps of a leaf; 0: an inner node
 
     int instance_count = 0;
     const std::int32_t* triangle_base = nullptr;     ///< per instance, into triangle_emitter; -1: no emitter

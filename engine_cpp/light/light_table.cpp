@@ -33,8 +33,8 @@ struct LightTable::Storage {
     LampBoxTree boxes;
     EnvironmentMap environment;
 
-    void add_lamps(const std::vector<LampInput>& lamps, Float3 scene_min, Float3 scene_max, std::vector<TreeLeaf>& finite,
-                   std::vector<TreeLeaf>& suns);
+    void add_lamps(const std::vector<LampInput>& lamps, Float3 scene_min, Float3 scene_max,
+                   std::vector<TreeLeaf>& finite, std::vector<TreeLeaf>& suns);
     void add_triangles(const std::vector<EmissiveTriangle>& triangles, std::vector<TreeLeaf>& finite);
     void add_triangle_lookup(const std::vector<EmissiveTriangle>& triangles);
     void add_world(const WorldInput& world);
@@ -71,8 +71,8 @@ void LightTable::Storage::add_triangles(const std::vector<EmissiveTriangle>& tri
         const float area = 0.5f * length(twice);
         const Float3 n = normalize(twice);
         const Float3 radiance = t.program >= 0 ? Float3{1, 1, 1} : t.radiance;
-        const float record[k_triangle_floats] = {t.p0.x, t.p0.y, t.p0.z, e1.x, e1.y, e1.z, e2.x, e2.y, e2.z,
-                                                 radiance.x, radiance.y, radiance.z, n.x, n.y, n.z, area};
+        const float record[k_triangle_floats] = {t.p0.x, t.p0.y,     t.p0.z,     e1.x,       e1.y, e1.z, e2.x, e2.y,
+                                                 e2.z,   radiance.x, radiance.y, radiance.z, n.x,  n.y,  n.z,  area};
         triangle.insert(triangle.end(), std::begin(record), std::end(record));
         const std::int32_t numbers[k_triangle_ints] = {t.program, t.instance, t.triangle, t.two_sided ? 1 : 0};
         triangle_int.insert(triangle_int.end(), std::begin(numbers), std::end(numbers));
@@ -196,10 +196,11 @@ bool LightTable::empty() const { return storage_->data.entry_count == 0; }
 
 std::int64_t LightTable::memory_bytes() const {
     const Storage& s = *storage_;
-    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.triangle) + bytes(s.triangle_int) + bytes(s.leaf_of) + bytes(s.hittable) +
-           bytes(s.triangle_base) + bytes(s.triangle_span) + bytes(s.triangle_emitter) + bytes(s.nodes.record) + bytes(s.nodes.child) +
-           bytes(s.nodes.parent) + bytes(s.boxes.box) + bytes(s.boxes.first) + bytes(s.boxes.count) + bytes(s.boxes.lamps) +
-           bytes(s.environment.conditional) + bytes(s.environment.marginal) + bytes(s.environment.row_z);
+    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.triangle) + bytes(s.triangle_int) + bytes(s.leaf_of) +
+           bytes(s.hittable) + bytes(s.triangle_base) + bytes(s.triangle_span) + bytes(s.triangle_emitter) +
+           bytes(s.nodes.record) + bytes(s.nodes.child) + bytes(s.nodes.parent) + bytes(s.boxes.box) +
+           bytes(s.boxes.first) + bytes(s.boxes.count) + bytes(s.boxes.lamps) + bytes(s.environment.conditional) +
+           bytes(s.environment.marginal) + bytes(s.environment.row_z);
 }
 
 }  // namespace cardioid::light

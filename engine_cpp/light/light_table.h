@@ -17,10 +17,10 @@ namespace cardioid::light {
 /// One triangle of an emissive mesh, in world space.
 struct EmissiveTriangle {
     Float3 p0, p1, p2;
-    Float3 radiance;          ///< estimate of the emitted radiance (program's emission_estimate)
-    std::int32_t instance;    ///< trace/ instance index
-    std::int32_t triangle;    ///< triangle within the mesh
-    std::int32_t program;     ///< emission program, or -1 when `radiance` is exact and constant
+    Float3 radiance;        ///< estimate of the emitted radiance (program's emission_estimate)
+    std::int32_t instance;  ///< trace/ instance index
+    std::int32_t triangle;  ///< triangle within the mesh
+    std::int32_t program;   ///< emission program, or -1 when `radiance` is exact and constant
     bool two_sided = true;
 };
 
@@ -29,7 +29,7 @@ struct LampInput {
     scene::LightDesc desc;
     std::int32_t program = -1;
     Float3 program_estimate{1, 1, 1};
-    bool soft_falloff = false;   ///< Blender 4.1's Soft Falloff: a point or spot lamp is a disk that faces the receiver
+    bool soft_falloff = false;  ///< Blender 4.1's Soft Falloff: a point or spot lamp is a disk that faces the receiver
 };
 
 /// Radiance of the world toward the direction, for n ≤ 64 unit directions (world shader evaluated by the caller).
@@ -37,11 +37,11 @@ using EnvironmentEval = std::function<void(int n, const Float3* directions, Floa
 
 struct WorldInput {
     scene::WorldSampling sampling = scene::WorldSampling::automatic;
-    int map_resolution = 1024;     ///< columns of the importance map; automatic: the width of the widest image, 0: 1024
-    bool constant = true;          ///< no texture: one colour
-    Float3 color{0, 0, 0};         ///< when constant
-    EnvironmentEval eval;          ///< when not constant
-    std::int32_t program = -1;     ///< emission program when not constant
+    int map_resolution = 1024;  ///< columns of the importance map; automatic: the width of the widest image, 0: 1024
+    bool constant = true;       ///< no texture: one colour
+    Float3 color{0, 0, 0};      ///< when constant
+    EnvironmentEval eval;       ///< when not constant
+    std::int32_t program = -1;  ///< emission program when not constant
     std::uint8_t visibility = scene::visible_all;
     int max_bounces = 1024;
 };

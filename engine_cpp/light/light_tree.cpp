@@ -16,8 +16,22 @@ float component(Float3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y :
 
 void write_record(const EmitterBounds& b, float* out) {
     const Float3 c = b.center(), half = (b.upper - b.lower) * 0.5f;
-    const float values[k_node_floats] = {c.x, c.y, c.z, b.sphere_radius_squared(), b.axis.x, b.axis.y, b.axis.z,
-                                         std::cos(b.theta_o), std::cos(b.theta_e), b.energy, half.x, half.y, half.z, 0, 0, 0};
+    const float values[k_node_floats] = {c.x,
+                                         c.y,
+                                         c.z,
+                                         b.sphere_radius_squared(),
+                                         b.axis.x,
+                                         b.axis.y,
+                                         b.axis.z,
+                                         std::cos(b.theta_o),
+                                         std::cos(b.theta_e),
+                                         b.energy,
+                                         half.x,
+                                         half.y,
+                                         half.z,
+                                         0,
+                                         0,
+                                         0};
     std::copy(std::begin(values), std::end(values), out);
 }
 
@@ -43,8 +57,8 @@ int bucket_of(const TreeLeaf& leaf, const CenterBox& box, int axis) {
 }
 
 struct Split {
-    int axis = -1;        ///< -1: no useful plane
-    int bucket = 0;       ///< leaves in buckets up to this one go first
+    int axis = -1;   ///< -1: no useful plane
+    int bucket = 0;  ///< leaves in buckets up to this one go first
 };
 
 /// Cheapest of the planes between buckets along the three axes.
@@ -156,7 +170,8 @@ std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& no
         const std::vector<Range> parts = children_of(all, next.range);
         nodes.child[static_cast<std::size_t>(next.node)] = nodes.size();
         for (const Range& part : parts) add(part, next.node);
-        for (std::size_t i = parts.size(); i < k_tree_width; ++i) nodes.add(EmitterBounds{{}, {}}, k_no_emitter, next.node);
+        for (std::size_t i = parts.size(); i < k_tree_width; ++i)
+            nodes.add(EmitterBounds{{}, {}}, k_no_emitter, next.node);
     }
     return top;
 }

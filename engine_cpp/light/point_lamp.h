@@ -11,23 +11,25 @@ namespace cardioid::CD_ISA_NS {
 inline Float spot_attenuation(const light::LightData& lights, RecordIndex index, Int flags, Vec3 wi) {
     namespace lamp = light::lamp;
     const Vec3 d = -wi;
-    const Vec3 local{dot(fetch3(lights.lamp, index, lamp::spot_rows), d), dot(fetch3(lights.lamp, index, lamp::spot_rows + 3), d),
+    const Vec3 local{dot(fetch3(lights.lamp, index, lamp::spot_rows), d),
+                     dot(fetch3(lights.lamp, index, lamp::spot_rows + 3), d),
                      dot(fetch3(lights.lamp, index, lamp::spot_rows + 6), d)};
     const Float z = local.z / sqrt(max(length_squared(local), 1e-37f));
-    const Float t = saturate((z - fetch(lights.lamp, index, lamp::spot_cos)) * fetch(lights.lamp, index, lamp::spot_inv_blend));
+    const Float t =
+        saturate((z - fetch(lights.lamp, index, lamp::spot_cos)) * fetch(lights.lamp, index, lamp::spot_inv_blend));
     const Float smooth = t * t * (3.0f - 2.0f * t);
     const Mask cosine = (flags & Int(lamp::spot_cosine)) != Int(0);
     return select((flags & Int(lamp::is_spot)) != Int(0), select(cosine, smooth * z, smooth), Float(1.0f));
 }
 
 struct SeenBall {
-    Vec3 to_center, toward;     ///< toward: unit
+    Vec3 to_center, toward;  ///< toward: unit
     Float d2, distance, r2;
-    Float one_minus_cos;        ///< of the cone that it fills, or of the narrower cone that a spot lights
-    Vec3 axis;                  ///< of that cone
-    Mask disk;                  ///< facing disk, otherwise a sphere
-    Mask within;                ///< the receiver is inside the sphere: light comes from all around
-    Mask by_spot;               ///< the spot's cone is sampled: directions may miss
+    Float one_minus_cos;  ///< of the cone that it fills, or of the narrower cone that a spot lights
+    Vec3 axis;            ///< of that cone
+    Mask disk;            ///< facing disk, otherwise a sphere
+    Mask within;          ///< the receiver is inside the sphere: light comes from all around
+    Mask by_spot;         ///< the spot's cone is sampled: directions may miss
 };
 
 inline SeenBall see_ball(const light::LightData& lights, RecordIndex index, Mask disk, Int flags, Vec3 p) {
@@ -91,7 +93,8 @@ inline BallSample sample_ball_cone(const SeenBall& b, Float u, Float v) {
     out.wi = frame.to_world(cone.local);
     const Float half = safe_sqrt(b.r2 - b.d2 * cone.sin2);
     out.t = select(b.disk, b.distance / cone.local.z, max(b.distance * cone.local.z - half, 0.0f));
-    const Vec3 from_center = Vec3{out.t * cone.local.x, out.t * cone.local.y, -(b.distance * cone.sin2 + half * cone.local.z)};
+    const Vec3 from_center =
+        Vec3{out.t * cone.local.x, out.t * cone.local.y, -(b.distance * cone.sin2 + half * cone.local.z)};
     out.normal = select(b.disk, -out.wi, normalize(frame.to_world(from_center)));
     out.pdf = cone_pdf(b.one_minus_cos);
     out.valid = mask_of(true);

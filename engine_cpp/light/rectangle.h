@@ -9,9 +9,9 @@ namespace cardioid::CD_ISA_NS {
 
 struct SeenRectangle {
     Float x0, x1, y0, y1, z;
-    Float left;                 ///< solid angle, signed, between the foot point and the side x0
+    Float left;  ///< solid angle, signed, between the foot point and the side x0
     Float solid_angle;
-    Mask by_solid_angle;        ///< otherwise by area: far, or too small an angle for float
+    Mask by_solid_angle;  ///< otherwise by area: far, or too small an angle for float
 };
 
 /// Beyond this many diagonals (squared) the density over the area hardly varies and the corners need not be evaluated.

@@ -28,7 +28,8 @@ void set_value(LightSample& s, Mask lanes, Spectrum radiance, Float pdf, Mask va
     s.valid &= ~lanes | (valid & (pdf > Float(0.0f)));
 }
 
-void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask round, Mask lanes, LightSample& s) {
+void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask round, Mask lanes,
+                      LightSample& s) {
     const SeenArea area = see_area(lights, index, round, at.p, lanes);
     const AreaPoint point = sample_area(area, u.x, u.y);
     const Vec3 offset = area.u * point.x + area.v * point.y - area.normal * area.rect.z;
@@ -39,18 +40,21 @@ void sample_area_lamp(const LightData& lights, RecordIndex index, LightReceiver 
     s.barycentric_v = select(lanes, (point.y - area.center_y) / area.half_v * 0.5f + 0.5f, s.barycentric_v);
 }
 
-void sample_ball_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask disk, Int flags, Mask lanes,
-                      LightSample& s) {
+void sample_ball_lamp(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, Mask disk, Int flags,
+                      Mask lanes, LightSample& s) {
     const SeenBall ball = see_ball(lights, index, disk, flags, at.p);
     const BallSample point = sample_ball(ball, at, u.x, u.y);
     const Vec3 center = fetch3(lights.lamp, index, lamp::position);
-    const Vec3 position = select(disk, at.p + point.wi * point.t, center + point.normal * fetch(lights.lamp, index, lamp::radius));
+    const Vec3 position =
+        select(disk, at.p + point.wi * point.t, center + point.normal * fetch(lights.lamp, index, lamp::radius));
     const Float factor = select(ball.within, Float(1.0f), spot_attenuation(lights, index, flags, point.wi));
     set_direction(s, lanes, point.wi, point.t, position, point.normal);
-    set_value(s, lanes, fetch_rgb(lights.lamp, index, lamp::radiance) * factor, point.pdf, point.valid & (factor > Float(0.0f)));
+    set_value(s, lanes, fetch_rgb(lights.lamp, index, lamp::radiance) * factor, point.pdf,
+              point.valid & (factor > Float(0.0f)));
 }
 
-void sample_delta_point(const LightData& lights, RecordIndex index, LightReceiver at, Int flags, Mask lanes, LightSample& s) {
+void sample_delta_point(const LightData& lights, RecordIndex index, LightReceiver at, Int flags, Mask lanes,
+                        LightSample& s) {
     const Vec3 center = fetch3(lights.lamp, index, lamp::position);
     const Vec3 to = center - at.p;
     const Float d2 = length_squared(to);
@@ -85,8 +89,8 @@ void sample_delta_sun(const LightData& lights, RecordIndex index, Mask lanes, Li
     s.infinite |= lanes;
 }
 
-void sample_lamp_kind(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, EmitterKind kind, Int flags, Mask lanes,
-                      LightSample& s) {
+void sample_lamp_kind(const LightData& lights, RecordIndex index, LightReceiver at, Vec2 u, EmitterKind kind, Int flags,
+                      Mask lanes, LightSample& s) {
     switch (kind) {
         case EmitterKind::delta_point: sample_delta_point(lights, index, at, flags, lanes, s); return;
         case EmitterKind::sphere: sample_ball_lamp(lights, index, at, u, mask_of(false), flags, lanes, s); return;
@@ -123,7 +127,8 @@ void sample_triangles(const LightData& lights, LightReceiver at, Vec2 u, Mask la
     const RecordIndex numbers = record_index(id, light::k_triangle_ints, lanes);
     const Float root = sqrt(u.x);
     const Float second = root * (1.0f - u.y), third = root * u.y;
-    const Vec3 position = fetch3(lights.triangle, index, triangle::origin) + fetch3(lights.triangle, index, triangle::edge1) * second +
+    const Vec3 position = fetch3(lights.triangle, index, triangle::origin) +
+                          fetch3(lights.triangle, index, triangle::edge1) * second +
                           fetch3(lights.triangle, index, triangle::edge2) * third;
     const Vec3 normal = fetch3(lights.triangle, index, triangle::normal);
     const Vec3 to = position - at.p;
@@ -135,7 +140,8 @@ void sample_triangles(const LightData& lights, LightReceiver at, Vec2 u, Mask la
     const Float area = fetch(lights.triangle, index, triangle::area);
     const Float pdf = d2 / max(abs(cosine) * area, 1e-37f);
     set_direction(s, lanes, wi, distance, position, normal);
-    set_value(s, lanes, fetch_rgb(lights.triangle, index, triangle::radiance), pdf, emits & (abs(cosine) > Float(1e-7f)));
+    set_value(s, lanes, fetch_rgb(lights.triangle, index, triangle::radiance), pdf,
+              emits & (abs(cosine) > Float(1e-7f)));
     s.program = select(lanes, fetch(lights.triangle_int, numbers, triangle::program), s.program);
     s.instance = select(lanes, fetch(lights.triangle_int, numbers, triangle::instance), s.instance);
     s.triangle = select(lanes, fetch(lights.triangle_int, numbers, triangle::index), s.triangle);
@@ -187,7 +193,8 @@ LightSample sample_light(const LightData& lights, LightReceiver at, Vec2 u, Mask
     return s;
 }
 
-Float pdf_triangle(const LightData& lights, LightReceiver at, Int instance, Int triangle_index, Vec3 hit, Vec3 hit_normal, Mask active) {
+Float pdf_triangle(const LightData& lights, LightReceiver at, Int instance, Int triangle_index, Vec3 hit,
+                   Vec3 hit_normal, Mask active) {
     active &= (instance >= Int(0)) & (instance < Int(lights.instance_count)) & (triangle_index >= Int(0));
     if (none(active)) return 0.0f;
     const RecordIndex place = record_index(instance, 1, active);

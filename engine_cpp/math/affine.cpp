@@ -18,9 +18,10 @@ Affine operator*(const Affine& a, const Affine& b) {
 Affine inverse(const Affine& a) {
     const Float3 c0 = a.column(0), c1 = a.column(1), c2 = a.column(2);
     // In double: a scaled-down instance far from the origin would lose its position in float.
-    const double det = static_cast<double>(c0.x) * (static_cast<double>(c1.y) * c2.z - static_cast<double>(c1.z) * c2.y) -
-                       static_cast<double>(c0.y) * (static_cast<double>(c1.x) * c2.z - static_cast<double>(c1.z) * c2.x) +
-                       static_cast<double>(c0.z) * (static_cast<double>(c1.x) * c2.y - static_cast<double>(c1.y) * c2.x);
+    const double det =
+        static_cast<double>(c0.x) * (static_cast<double>(c1.y) * c2.z - static_cast<double>(c1.z) * c2.y) -
+        static_cast<double>(c0.y) * (static_cast<double>(c1.x) * c2.z - static_cast<double>(c1.z) * c2.x) +
+        static_cast<double>(c0.z) * (static_cast<double>(c1.x) * c2.y - static_cast<double>(c1.y) * c2.x);
     if (!(std::abs(det) > 0)) return {};
     const auto& m = a.m;
     const double i[9] = {

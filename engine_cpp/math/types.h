@@ -23,7 +23,9 @@ struct Float3 {
     bool operator==(const Float3&) const = default;
 };
 inline float dot(Float3 a, Float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Float3 cross(Float3 a, Float3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline Float3 cross(Float3 a, Float3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline float length(Float3 a) { return std::sqrt(dot(a, a)); }
 /// The zero vector stays zero.
 inline Float3 normalize(Float3 a) {
@@ -41,11 +43,13 @@ struct Affine {
                 m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
     }
     Float3 vector(Float3 p) const {
-        return {m[0] * p.x + m[1] * p.y + m[2] * p.z, m[4] * p.x + m[5] * p.y + m[6] * p.z, m[8] * p.x + m[9] * p.y + m[10] * p.z};
+        return {m[0] * p.x + m[1] * p.y + m[2] * p.z, m[4] * p.x + m[5] * p.y + m[6] * p.z,
+                m[8] * p.x + m[9] * p.y + m[10] * p.z};
     }
     /// Mᵀ·n of the linear part: with the inverse of a transform it maps normals.
     Float3 transposed_vector(Float3 n) const {
-        return {m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z, m[2] * n.x + m[6] * n.y + m[10] * n.z};
+        return {m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
+                m[2] * n.x + m[6] * n.y + m[10] * n.z};
     }
     Float3 column(int c) const { return {m[c], m[4 + c], m[8 + c]}; }
     Float3 translation() const { return column(3); }

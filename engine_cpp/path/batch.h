@@ -26,41 +26,41 @@ using PathInts = std::int32_t[k_padded];
 struct alignas(64) RayState {
     int n = 0;
     PathFloats origin[3], direction[3];
-    PathFloats t_min;               ///< grows when the ray passes a transparent surface
+    PathFloats t_min;  ///< grows when the ray passes a transparent surface
     PathFloats throughput[3];
-    PathFloats pdf;                 ///< density of the direction for MIS; -1: delta or camera, nothing to weigh against
-    PathFloats from_normal[3];      ///< normal at the origin, zero where light from all sides counts
-    PathFloats width, spread;       ///< of the pixel's cone: width at the origin, growth per unit length
-    PathFloats min_pdf;             ///< least density so far (Filter Glossy)
-    PathInts path;                  ///< index in the batch
-    PathInts flags;                 ///< nodes::RayFlag | state << k_state_shift | bits below
-    PathInts depth;                 ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
-    PathInts transparent;           ///< transparent surfaces passed
+    PathFloats pdf;             ///< density of the direction for MIS; -1: delta or camera, nothing to weigh against
+    PathFloats from_normal[3];  ///< normal at the origin, zero where light from all sides counts
+    PathFloats width, spread;   ///< of the pixel's cone: width at the origin, growth per unit length
+    PathFloats min_pdf;         ///< least density so far (Filter Glossy)
+    PathInts path;              ///< index in the batch
+    PathInts flags;             ///< nodes::RayFlag | state << k_state_shift | bits below
+    PathInts depth;             ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
+    PathInts transparent;       ///< transparent surfaces passed
 };
 inline constexpr int k_state_shift = 8;
-inline constexpr std::int32_t k_flag_last = 1 << 12;          ///< only emission counts at the next surface
-inline constexpr std::int32_t k_flag_background = 1 << 13;    ///< nothing but transparency since the camera
+inline constexpr std::int32_t k_flag_last = 1 << 12;        ///< only emission counts at the next surface
+inline constexpr std::int32_t k_flag_background = 1 << 13;  ///< nothing but transparency since the camera
 
 /// Closest hits of RayState's rays.
 struct alignas(64) HitState {
     PathFloats t, u, v, ng[3];
     PathInts triangle, instance;
-    PathInts material;              ///< SceneView::material_count: missed
+    PathInts material;  ///< SceneView::material_count: missed
 };
 
 /// Vertices of one material at one bounce: the record from which direct light is evaluated once paths are built.
 struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
-    bool own_normals = false;       ///< lobes may have normals of their own (bump, normal maps)
-    bool all_sides = false;         ///< light from below the smooth normal's horizon counts: transmission, bump
-    bsdf::Lobe* lobe = nullptr;     ///< `lobes` of them
-    Row* pick = nullptr;            ///< probability of each lobe, `lobes` rows
+    bool own_normals = false;    ///< lobes may have normals of their own (bump, normal maps)
+    bool all_sides = false;      ///< light from below the smooth normal's horizon counts: transmission, bump
+    bsdf::Lobe* lobe = nullptr;  ///< `lobes` of them
+    Row* pick = nullptr;         ///< probability of each lobe, `lobes` rows
     Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;
     std::int32_t path[k_chunk];
-    std::int32_t flags[k_chunk];    ///< as RayState, of the arriving ray
+    std::int32_t flags[k_chunk];  ///< as RayState, of the arriving ray
     std::int32_t depth[k_chunk];
-    std::int32_t event[k_chunk];    ///< bounces + transparent surfaces: index of the random dimensions
+    std::int32_t event[k_chunk];  ///< bounces + transparent surfaces: index of the random dimensions
 };
 
 /// Shadow rays that wait for full packets.
@@ -75,9 +75,9 @@ struct alignas(64) ShadowQueue {
 struct alignas(64) BatchResult {
     int n = 0;
     PathFloats radiance[k_classes][3];
-    PathFloats alpha;               ///< share of the camera ray that something stopped
-    PathFloats depth, normal[3];    ///< at the first surface; depth 1e10 where there is none
-    PathInts x, y, sample;          ///< pixel in the frame and number of the sample
+    PathFloats alpha;             ///< share of the camera ray that something stopped
+    PathFloats depth, normal[3];  ///< at the first surface; depth 1e10 where there is none
+    PathInts x, y, sample;        ///< pixel in the frame and number of the sample
 };
 
 /// Counted facts; the sums over threads go to the statistics.
@@ -96,7 +96,7 @@ struct Counters {
 /// Pixels [x, x+width) × [y, y+height) with samples [first_sample, first_sample+samples) each; at most k_batch paths.
 struct BatchRequest {
     const trace::SceneView* scene = nullptr;
-    const float* filter_table = nullptr;   ///< film/pixel_filter.h: offsets in pixels by quantile
+    const float* filter_table = nullptr;  ///< film/pixel_filter.h: offsets in pixels by quantile
     int x = 0, y = 0, width = 0, height = 0;
     int first_sample = 0, samples = 1;
     std::uint32_t seed = 0;
@@ -125,11 +125,11 @@ private:
 /// One vertex of a path that is watched (cardioid-render --pixel).
 struct LoggedVertex {
     int path, material, instance, triangle;
-    std::int32_t flags, depth;       ///< of the arriving ray, as in RayState
+    std::int32_t flags, depth;  ///< of the arriving ray, as in RayState
     float position[3], normal[3], throughput[3];
     float distance;
     int lobes;
-    float pick[bsdf::k_max_lobes];   ///< probability of each lobe
+    float pick[bsdf::k_max_lobes];  ///< probability of each lobe
     bsdf::LobeKind kind[bsdf::k_max_lobes];
 };
 
@@ -142,9 +142,9 @@ struct PathLog {
 /// Rays that a batch handed to Embree, for a loop that traces nothing else (bench/cpp/embree_loop.cpp). Packets of the lane
 /// width follow each other; a packet's unused lanes have t_max < t_min.
 struct RayLog {
-    float* field[8] = {};            ///< origin xyz, direction xyz, t_min, t_max; `capacity` floats each
+    float* field[8] = {};  ///< origin xyz, direction xyz, t_min, t_max; `capacity` floats each
     std::int32_t* mask = nullptr;
-    std::uint8_t* kind = nullptr;    ///< RayKind per ray
+    std::uint8_t* kind = nullptr;  ///< RayKind per ray
     std::size_t capacity = 0, n = 0;
 };
 enum RayKind : std::uint8_t { ray_kind_coherent, ray_kind_bounce, ray_kind_shadow };
@@ -160,9 +160,9 @@ struct alignas(64) Scratch {
     nodes::ShadingChunk shading;
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
-    PathInts order;                          ///< paths sorted by material
-    PathInts pixel_seed, sample_index;       ///< by path; sample numbers with their bits reversed, as sample_pair wants them
-    std::int32_t* bins = nullptr;            ///< material_count + 2 counters, owned by the caller
+    PathInts order;                     ///< paths sorted by material
+    PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them
+    std::int32_t* bins = nullptr;       ///< material_count + 2 counters, owned by the caller
     Counters counters;
     const std::atomic<bool>* cancelled = nullptr;
     PathLog* log = nullptr;

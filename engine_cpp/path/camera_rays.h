@@ -9,7 +9,7 @@ namespace cardioid::CD_ISA_NS {
 struct CameraRays {
     Vec3 o, d;
     Float t_min, t_max;
-    Float width, spread;   ///< cone of the pixel
+    Float width, spread;  ///< cone of the pixel
 };
 
 /// Quantile u of the pixel filter, in pixels around the centre.
@@ -52,13 +52,14 @@ inline Vec3 transform_vector(const Affine& m, Vec3 v) {
             m.m[8] * v.x + m.m[9] * v.y + m.m[10] * v.z};
 }
 
-inline CameraRays camera_rays(const trace::CameraView& camera, const float* filter_table, Float x, Float y, Vec2 u_pixel, Vec2 u_lens) {
+inline CameraRays camera_rays(const trace::CameraView& camera, const float* filter_table, Float x, Float y,
+                              Vec2 u_pixel, Vec2 u_lens) {
     const scene::CameraDesc& c = camera.desc;
     const Float px = c.view_plane[0] + (x + 0.5f + filter_offset(filter_table, u_pixel.x)) * camera.pixel_x;
     const Float py = c.view_plane[2] + (y + 0.5f + filter_offset(filter_table, u_pixel.y)) * camera.pixel_y;
     const bool ortho = c.kind == scene::CameraKind::orthographic;
     Vec3 o = ortho ? Vec3{px, py, 0.0f} : Vec3{0.0f, 0.0f, 0.0f};
-    Vec3 d = ortho ? Vec3{0.0f, 0.0f, -1.0f} : Vec3{px, py, -1.0f};   // one unit along the axis per unit of t
+    Vec3 d = ortho ? Vec3{0.0f, 0.0f, -1.0f} : Vec3{px, py, -1.0f};  // one unit along the axis per unit of t
     if (c.aperture_radius > 0) {
         Vec2 lens = c.blades >= 3 ? polygon_point(c.blades, c.blade_rotation, u_lens) : concentric_disk(u_lens);
         const Vec3 focus = o + d * c.focus_distance;

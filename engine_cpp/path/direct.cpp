@@ -24,11 +24,13 @@ Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
 }
 
 /// `visibility`: bits of the light, to leave out the lobes that it must not light; null when every lamp lights all.
-BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness, const Int* visibility) {
+BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness,
+                   const Int* visibility) {
     BsdfEval sum;
     for (int k = 0; k < chunk.lobes; ++k) {
         LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(chunk.lobe[k].kind)) e.f_cos = e.f_cos * bump_shadow(chunk, chunk.lobe[k], i, wi);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(chunk.lobe[k].kind))
+            e.f_cos = e.f_cos * bump_shadow(chunk, chunk.lobe[k], i, wi);
         if (visibility) {
             const Mask seen = (*visibility & lobe_visibility(chunk.lobe[k].kind, wi, ng)) != Int(0);
             e.f_cos = select(seen, e.f_cos, Spectrum(0.0f));
@@ -49,7 +51,9 @@ BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3
     return sum;
 }
 
-int append(float* to, int n, Float value, Mask m) { return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m); }
+int append(float* to, int n, Float value, Mask m) {
+    return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
+}
 
 Mask not_black(Spectrum c) { return (c.r != Float(0.0f)) | (c.g != Float(0.0f)) | (c.b != Float(0.0f)); }
 
@@ -72,7 +76,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Spectrum throughput = load_rgb(chunk.throughput, i);
     const Mask active = first_lanes(chunk.n - i) & not_black(throughput);
     if (none(active)) return;
-    const Vec3 p = cardioid::CD_ISA_NS::load3(chunk.position, i), ng = cardioid::CD_ISA_NS::load3(chunk.normal_geometric, i);
+    const Vec3 p = cardioid::CD_ISA_NS::load3(chunk.position, i),
+               ng = cardioid::CD_ISA_NS::load3(chunk.normal_geometric, i);
     const Vec3 wo = cardioid::CD_ISA_NS::load3(chunk.wo, i), n = cardioid::CD_ISA_NS::load3(chunk.normal, i);
     // Masked lanes may hold garbage indices from the list's padding.
     const Int path = select(active, load(chunk.path + i), Int(0));
@@ -113,7 +118,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Int bounce = byte_of(depth, 0), state = state_of(load(chunk.flags + i));
     const float clamp_direct = scene.settings.clamp_direct, clamp_indirect = scene.settings.clamp_indirect;
     const Vec3 origin = offset_origin(p, ng, light.wi, load(chunk.distance + i));
-    const Float reach = max(max(abs(light.position.x), abs(light.position.y)), max(abs(light.position.z), light.distance));
+    const Float reach =
+        max(max(abs(light.position.x), abs(light.position.y)), max(abs(light.position.z), light.distance));
     // Aimed anew from the moved origin: in the old direction the ray would end behind the emitter and be stopped by it.
     const Vec3 to_light = light.position - origin;
     const Float distance = length(to_light);
@@ -204,7 +210,8 @@ Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible) {
         point.flags = Int(nodes::ray_shadow);
         point.ray_length = h.t;
         point.backfacing = select(normals.backfacing, Float(1.0f), Float(0.0f));
-        const Spectrum t = shade_points(*this, nodes::Purpose::transparency, material_of(scene, instance, triangle), point, active);
+        const Spectrum t =
+            shade_points(*this, nodes::Purpose::transparency, material_of(scene, instance, triangle), point, active);
         passed = select(active, passed * t, passed);
         const Mask black = active & ~not_black(passed);
         visible &= ~black;

@@ -73,7 +73,8 @@ void Tracer::add_lamp_hits() {
         for (int which = walk.next(); which >= 0; which = walk.next()) {
             const LampHit h = intersect_lamp(*scene.lights, which, from, d, t_max, lanes);
             // A ray that passed a transparent surface keeps its origin: lamps before t_min were found already.
-            const Mask hit = h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0)) & (bounce <= Int(h.max_bounces));
+            const Mask hit =
+                h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0)) & (bounce <= Int(h.max_bounces));
             if (none(hit)) continue;
             Spectrum radiance = h.radiance;
             if (h.program >= 0) {

@@ -17,7 +17,8 @@ void Tracer::find_hits(bool coherent) {
         ray.t_max = coherent ? load(hits.t + i) : Float(1e30f);
         ray.time = 0.0f;
         ray.mask = visibility_bit(load(rays.flags + i));
-        if (scratch.ray_log) log_rays(*scratch.ray_log, ray, active, coherent ? path::ray_kind_coherent : path::ray_kind_bounce);
+        if (scratch.ray_log)
+            log_rays(*scratch.ray_log, ray, active, coherent ? path::ray_kind_coherent : path::ray_kind_bounce);
         const HitLanes h = intersect(scene.embree, ray, active, coherent);
         const Int instance = select(h.hit, h.instance, Int(0));
         const Int triangle = select(h.hit, h.triangle, Int(0));

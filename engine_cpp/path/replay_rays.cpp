@@ -18,7 +18,8 @@ std::uint64_t replay_rays(RTCSceneTy* scene, const path::RayLog& log) {
         if (log.kind[i] == path::ray_kind_shadow) {
             hits += static_cast<std::uint64_t>(count(occluded(scene, ray, active)));
         } else {
-            hits += static_cast<std::uint64_t>(count(intersect(scene, ray, active, log.kind[i] == path::ray_kind_coherent).hit));
+            hits += static_cast<std::uint64_t>(
+                count(intersect(scene, ray, active, log.kind[i] == path::ray_kind_coherent).hit));
         }
     }
     return hits;

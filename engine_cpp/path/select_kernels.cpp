@@ -6,15 +6,15 @@ namespace cardioid {
 namespace isa_w1 {
 std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
-}
+}  // namespace isa_w1
 namespace isa_w8 {
 std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
-}
+}  // namespace isa_w8
 namespace isa_w16 {
 std::uint64_t replay_rays(RTCSceneTy*, const path::RayLog&);
 void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
-}
+}  // namespace isa_w16
 
 namespace path {
 

@@ -18,8 +18,10 @@ void drop_caustic_lobes(const scene::Settings& settings, bsdf::Lobe& lobe, int i
     using bsdf::LobeKind;
     const bool reflects = lobe.kind == LobeKind::ggx_reflection || lobe.kind == LobeKind::ggx_glass;
     if (reflects && !settings.reflective_caustics) scale_rows(lobe.weight, i, after_diffuse);
-    if (lobe.kind == LobeKind::ggx_refraction && !settings.refractive_caustics) scale_rows(lobe.weight, i, after_diffuse);
-    if (lobe.kind == LobeKind::ggx_glass && !settings.refractive_caustics) scale_rows(lobe.tint_transmission, i, after_diffuse);
+    if (lobe.kind == LobeKind::ggx_refraction && !settings.refractive_caustics)
+        scale_rows(lobe.weight, i, after_diffuse);
+    if (lobe.kind == LobeKind::ggx_glass && !settings.refractive_caustics)
+        scale_rows(lobe.tint_transmission, i, after_diffuse);
 }
 
 /// Filter Glossy: after an unlikely bounce, near-mirrors are roughened.
@@ -34,15 +36,15 @@ struct Choice {
     Spectrum f{0.0f};
     Float pdf = 0.0f;
     Mask valid, delta, transmitted, diffuse, specular, through;
-    Float blur = 0.0f;     ///< how far the lobe widens the pixel's cone
+    Float blur = 0.0f;  ///< how far the lobe widens the pixel's cone
     Int lobe;
 };
 
 /// Chooses a lobe by its albedo (or the way straight through) with u.x and samples it with what is left of u.x and u.y: each
 /// lobe's share of a stratified sequence stays stratified. f and pdf are those of all lobes of the same class.
 /// `side` chooses between reflection and refraction.
-Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng, Vec2 u, Float side,
-                   float caustic_roughness, Mask active) {
+Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng, Vec2 u,
+                   Float side, float caustic_roughness, Mask active) {
     Choice c;
     c.wi = ng;
     c.valid = c.delta = c.transmitted = c.diffuse = c.specular = mask_of(false);
@@ -56,7 +58,8 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
         sum += p;
         if (none(here)) continue;
         LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind)) s.f_cos = s.f_cos * bump_shadow(chunk, lobe, i, s.wi);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind))
+            s.f_cos = s.f_cos * bump_shadow(chunk, lobe, i, s.wi);
         const Mask ok = here & s.valid;
         c.wi = select(ok, s.wi, c.wi);
         c.f = select(ok, s.f_cos, c.f);
@@ -83,7 +86,8 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
         const Mask here = mix & same_class & (c.lobe != Int(k));
         if (none(here)) continue;
         LobeEval e = eval_lobe(lobe, i, wo, c.wi, ng);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind)) e.f_cos = e.f_cos * bump_shadow(chunk, lobe, i, c.wi);
+        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind))
+            e.f_cos = e.f_cos * bump_shadow(chunk, lobe, i, c.wi);
         c.f = select(here, c.f + e.f_cos, c.f);
         c.pdf = select(here, c.pdf + e.pdf * load(chunk.pick[k] + i), c.pdf);
     }
@@ -102,7 +106,8 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     const Int one_transmission = select(c.transmitted, Int(1 << 24), Int(0));
     NextPath n;
     n.depth = depth + Int(1) + one_diffuse + one_glossy + one_transmission;
-    const Mask last = (byte_of(n.depth, 0) > Int(settings.max_bounces)) | (byte_of(n.depth, 1) > Int(settings.max_diffuse_bounces)) |
+    const Mask last = (byte_of(n.depth, 0) > Int(settings.max_bounces)) |
+                      (byte_of(n.depth, 1) > Int(settings.max_diffuse_bounces)) |
                       (byte_of(n.depth, 2) > Int(settings.max_glossy_bounces)) |
                       (byte_of(n.depth, 3) > Int(settings.max_transmission_bounces));
     Int kind = select(c.diffuse, Int(nodes::ray_diffuse), Int(nodes::ray_glossy));
@@ -113,7 +118,9 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     return n;
 }
 
-int append(float* to, int n, Float value, Mask m) { return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m); }
+int append(float* to, int n, Float value, Mask m) {
+    return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
+}
 
 }  // namespace
 
@@ -258,7 +265,8 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Int transparent = gather(rays.transparent, ray);
         const Vec3 tp = load3(rays.throughput, ray);
         const Spectrum throughput{tp.x, tp.y, tp.z};
-        const Vec3 p = cardioid::CD_ISA_NS::load3(s.position, i), ng = cardioid::CD_ISA_NS::load3(s.normal_geometric, i);
+        const Vec3 p = cardioid::CD_ISA_NS::load3(s.position, i),
+                   ng = cardioid::CD_ISA_NS::load3(s.normal_geometric, i);
         const Vec3 n = cardioid::CD_ISA_NS::load3(s.normal, i), wo = cardioid::CD_ISA_NS::load3(s.wo, i);
         const Float t = load(s.ray_length + i);
         const Float min_pdf = gather(rays.min_pdf, ray);
@@ -313,7 +321,8 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
         const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));
         const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
-        Choice c = sample_bsdf(chunk, albedo_through * inv_total, i, wo, ng, u, chance.y, settings.caustic_roughness, alive);
+        Choice c =
+            sample_bsdf(chunk, albedo_through * inv_total, i, wo, ng, u, chance.y, settings.caustic_roughness, alive);
         c.valid &= scatters & (c.pdf > Float(0.0f));
 
         Spectrum carried = throughput * c.f * (1.0f / max(c.pdf, 1e-37f));
@@ -344,7 +353,8 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         append(to.throughput[1], k, weight.g, go);
         append(to.throughput[2], k, weight.b, go);
         // Rough specular lobes after a D are not connected to lamps, so that their hits count in full.
-        const Mask unconnected = c.delta | (c.specular & (state_of(flags) != Int(static_cast<int>(path::State::specular))));
+        const Mask unconnected =
+            c.delta | (c.specular & (state_of(flags) != Int(static_cast<int>(path::State::specular))));
         append(to.pdf, k, select(passes, gather(rays.pdf, ray), select(unconnected, Float(-1.0f), c.pdf)), go);
         const Vec3 from = chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n;
         const Vec3 from_normal = select(passes, load3(rays.from_normal, ray), from);

@@ -41,8 +41,9 @@ void Tracer::start() {
         const Int seed = hash(y * Int(frame_width) + x, Int::of_bits(request.seed * 0x9e3779b9u + 0x7f4a7c15u));
         store(scratch.pixel_seed + i, seed);
         store(scratch.sample_index + i, sample);
-        const CameraRays r = camera_rays(scene.camera, request.filter_table, to_float(x), to_float(y),
-                                         sample_pair(seed, sample, Int(pair_pixel)), sample_pair(seed, sample, Int(pair_lens)));
+        const CameraRays r =
+            camera_rays(scene.camera, request.filter_table, to_float(x), to_float(y),
+                        sample_pair(seed, sample, Int(pair_pixel)), sample_pair(seed, sample, Int(pair_lens)));
         store3(rays.origin, i, r.o);
         store3(rays.direction, i, r.d);
         store(rays.t_min + i, r.t_min);

@@ -2,8 +2,6 @@
 // The loop of a batch: rays → hits → chunks by material → rays, then direct light from the record.
 #include "path/tracer.h"
 
-
-
 namespace cardioid::CD_ISA_NS {
 
 namespace {

@@ -13,8 +13,8 @@ struct Tracer {
     const path::BatchRequest& request;
     path::Scratch& scratch;
     path::BatchResult& result;
-    path::RayState* now = nullptr;    ///< rays of this bounce
-    path::RayState* next = nullptr;   ///< rays of the next one
+    path::RayState* now = nullptr;   ///< rays of this bounce
+    path::RayState* next = nullptr;  ///< rays of the next one
 
     // start.cpp: camera rays of all paths, results cleared.
     void start();
@@ -50,7 +50,7 @@ struct Tracer {
 /// W points whose emission or transparency is wanted, outside the chunks of a bounce.
 struct ShadedPoint {
     Vec3 position, normal_geometric, normal, wo;
-    Int instance = Int(-1), triangle = Int(0);   ///< instance -1: lamp or world
+    Int instance = Int(-1), triangle = Int(0);  ///< instance -1: lamp or world
     Float u = 0.0f, v = 0.0f;
     Int depth = Int(0);
     Int flags = Int(nodes::ray_diffuse | nodes::ray_reflection);
@@ -65,7 +65,8 @@ Spectrum shade_points(Tracer& tracer, nodes::Purpose purpose, Int program, const
 /// Appends a packet to the log; one that does not fit is dropped.
 inline void log_rays(path::RayLog& log, const RayLanes& ray, Mask active, path::RayKind kind) {
     if (log.n + W > log.capacity) return;
-    const Float values[8] = {ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z, ray.t_min, select(active, ray.t_max, Float(-1.0f))};
+    const Float values[8] = {ray.o.x, ray.o.y, ray.o.z,   ray.d.x,
+                             ray.d.y, ray.d.z, ray.t_min, select(active, ray.t_max, Float(-1.0f))};
     for (int f = 0; f < 8; ++f) store(log.field[f] + log.n, values[f]);
     store(log.mask + log.n, ray.mask);
     for (std::size_t k = 0; k < W; ++k) log.kind[log.n + k] = kind;
@@ -92,9 +93,10 @@ inline Int state_of(Int flags) { return (flags >> path::k_state_shift) & Int(7);
 inline Int step_state(Int state, Mask specular) {
     const Int s0(static_cast<int>(path::State::specular));
     const Int after_s = select(state == s0, s0, Int(static_cast<int>(path::State::caustic_hit)));
-    const Int after_d = select(state == s0, Int(static_cast<int>(path::State::first_d)),
-                               select(state == Int(static_cast<int>(path::State::caustic_hit)),
-                                      Int(static_cast<int>(path::State::caustic_d)), Int(static_cast<int>(path::State::more_d))));
+    const Int after_d =
+        select(state == s0, Int(static_cast<int>(path::State::first_d)),
+               select(state == Int(static_cast<int>(path::State::caustic_hit)),
+                      Int(static_cast<int>(path::State::caustic_d)), Int(static_cast<int>(path::State::more_d))));
     return select(specular, after_s, after_d);
 }
 

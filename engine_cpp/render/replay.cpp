@@ -18,7 +18,8 @@ constexpr const char* k_state_names[] = {"S*", "S*D", "..DD", "..DS+", "..DS+D"}
 constexpr const char* k_class_names[] = {"D1", "D2", "D3", "C1", "C2"};
 
 const char* lobe_name(bsdf::LobeKind kind) {
-    constexpr const char* names[] = {"diffuse", "translucent", "ggx reflection", "ggx refraction", "ggx glass", "sheen", "burley", "velvet", "sheen v1"};
+    constexpr const char* names[] = {"diffuse", "translucent", "ggx reflection", "ggx refraction", "ggx glass",
+                                     "sheen",   "burley",      "velvet",         "sheen v1"};
     return names[static_cast<int>(kind)];
 }
 
@@ -34,16 +35,18 @@ std::string material_name(const scene::SceneDesc& desc, int id) {
 
 void print(std::ostringstream& out, const scene::SceneDesc& desc, const path::LoggedVertex& v) {
     const int state = (v.flags >> path::k_state_shift) & 7;
-    out << "bounce " << (v.depth & 255) << "  after " << k_state_names[state] << "  " << material_name(desc, v.material) << ", instance "
-        << v.instance << ", triangle " << v.triangle << "\n    at " << triple(v.position) << ", distance " << v.distance << ", normal "
-        << triple(v.normal) << "\n    throughput " << triple(v.throughput) << '\n';
+    out << "bounce " << (v.depth & 255) << "  after " << k_state_names[state] << "  " << material_name(desc, v.material)
+        << ", instance " << v.instance << ", triangle " << v.triangle << "\n    at " << triple(v.position)
+        << ", distance " << v.distance << ", normal " << triple(v.normal) << "\n    throughput " << triple(v.throughput)
+        << '\n';
     for (int k = 0; k < v.lobes; ++k) out << "    " << lobe_name(v.kind[k]) << "  chosen with " << v.pick[k] << '\n';
 }
 
 }  // namespace
 
 std::string replay_sample(const scene::SceneDesc& desc, int x, int y, int sample) {
-    if (x < 0 || y < 0 || x >= desc.settings.width || y >= desc.settings.height) throw std::out_of_range("the pixel is outside the frame");
+    if (x < 0 || y < 0 || x >= desc.settings.width || y >= desc.settings.height)
+        throw std::out_of_range("the pixel is outside the frame");
     const trace::TraceableScene scene(desc, [](const std::string&) { return false; });
     const auto filter = film::make_filter_table(desc.settings.pixel_filter, desc.settings.filter_width);
     auto scratch = std::make_unique<path::Scratch>();

@@ -8,12 +8,12 @@
 #include "simd/denormals.h"
 #include "trace/traceable_scene.h"
 
-#include <nlohmann/json.hpp>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/version.h>
+#include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
 
@@ -36,7 +36,9 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 double cpu_seconds() {
     rusage u{};
     getrusage(RUSAGE_SELF, &u);
-    const auto s = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+    const auto s = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
     return s(u.ru_utime) + s(u.ru_stime);
 }
 
@@ -69,8 +71,8 @@ struct Session::Impl {
     tbb::enumerable_thread_specific<Worker> workers;
 
     std::thread controller;
-    std::atomic<bool> cancelled{false};   // the host's wish
-    std::atomic<bool> stop{false};        // cancelled, or out of time: batches end early
+    std::atomic<bool> cancelled{false};  // the host's wish
+    std::atomic<bool> stop{false};       // cancelled, or out of time: batches end early
     std::atomic<std::uint64_t> revision{0};
     std::atomic<std::int64_t> pixel_samples{0};
 
@@ -83,15 +85,19 @@ struct Session::Impl {
     std::string message;
     bool finished = false;
     Clock::time_point started, render_started;
-    double build_seconds = 0, render_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0, cpu_at_start = 0, cpu_total = 0;
+    double build_seconds = 0, render_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0, cpu_at_start = 0,
+           cpu_total = 0;
     std::vector<std::string> scene_warnings;
     trace::BuildStats build_stats;
     path::Counters counters;
     std::uint64_t dropped = 0;
 
     Impl(std::shared_ptr<const scene::SceneDesc> d, int lanes)
-        : desc(std::move(d)), trace_batch(path::select_trace_batch(lanes)), width(lanes == 0 ? path::best_width() : lanes),
-          film(desc->settings), filter_table(film::make_filter_table(desc->settings.pixel_filter, desc->settings.filter_width)) {}
+        : desc(std::move(d)),
+          trace_batch(path::select_trace_batch(lanes)),
+          width(lanes == 0 ? path::best_width() : lanes),
+          film(desc->settings),
+          filter_table(film::make_filter_table(desc->settings.pixel_filter, desc->settings.filter_width)) {}
 
     void run();
     void build();
@@ -147,13 +153,10 @@ void Session::Impl::run() {
             render();
         });
         finish(cancelled ? Phase::cancelled : Phase::done, "");
-    } catch (const trace::BuildCancelled&) {
-        finish(Phase::cancelled, "");
-    } catch (const std::bad_alloc&) {
-        finish(Phase::failed, "Not enough memory for this scene: lower the resolution, simplify meshes or use instances");
-    } catch (const std::exception& e) {
-        finish(Phase::failed, e.what());
-    }
+    } catch (const trace::BuildCancelled&) { finish(Phase::cancelled, ""); } catch (const std::bad_alloc&) {
+        finish(Phase::failed,
+               "Not enough memory for this scene: lower the resolution, simplify meshes or use instances");
+    } catch (const std::exception& e) { finish(Phase::failed, e.what()); }
 }
 
 void Session::Impl::build() {
@@ -187,11 +190,14 @@ void Session::Impl::render() {
 
 void Session::Impl::render_pass(int first_sample, int samples) {
     const auto list = tiles(film.region(), samples);
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
-        if (stop) return;
-        render_tile(list[i], first_sample, samples);
-        if (out_of_time()) stop = true;
-    }, tbb::simple_partitioner{});
+    tbb::parallel_for(
+        std::size_t{0}, list.size(),
+        [&](std::size_t i) {
+            if (stop) return;
+            render_tile(list[i], first_sample, samples);
+            if (out_of_time()) stop = true;
+        },
+        tbb::simple_partitioner{});
 }
 
 void Session::Impl::render_tile(const film::Region& tile, int first_sample, int samples) {
@@ -317,14 +323,20 @@ StatsJson Session::stats() const {
     j["seed"] = s.desc->settings.seed;
     j["threads"] = s.threads();
     j["lanes"] = s.width;
-    j["seconds"] = {{"build", s.build_seconds}, {"render", s.render_seconds}, {"first_tile", s.first_tile_seconds},
-                    {"images", b.images_seconds}, {"materials", b.materials_seconds}, {"geometry", b.geometry_seconds},
-                    {"tree", b.bvh_seconds}, {"lights", b.lights_seconds}};
+    j["seconds"] = {
+        {"build", s.build_seconds},   {"render", s.render_seconds},       {"first_tile", s.first_tile_seconds},
+        {"images", b.images_seconds}, {"materials", b.materials_seconds}, {"geometry", b.geometry_seconds},
+        {"tree", b.bvh_seconds},      {"lights", b.lights_seconds}};
     j["cpu_seconds"] = s.cpu_total;
-    j["counts"] = {{"camera_paths", c.camera_paths}, {"rays", c.rays}, {"shadow_rays", c.shadow_rays}, {"vertices", c.vertices},
-                   {"light_samples", c.light_samples}, {"non_finite_dropped", s.dropped}, {"triangles", b.triangles},
-                   {"unique_triangles", b.unique_triangles}, {"instances", b.instances}, {"emissive_triangles", b.emissive_triangles}};
-    j["bytes"] = {{"ray_tree", b.embree_bytes}, {"geometry", b.geometry_bytes}, {"images", b.image_bytes}, {"lights", b.light_bytes},
+    j["counts"] = {{"camera_paths", c.camera_paths},   {"rays", c.rays},
+                   {"shadow_rays", c.shadow_rays},     {"vertices", c.vertices},
+                   {"light_samples", c.light_samples}, {"non_finite_dropped", s.dropped},
+                   {"triangles", b.triangles},         {"unique_triangles", b.unique_triangles},
+                   {"instances", b.instances},         {"emissive_triangles", b.emissive_triangles}};
+    j["bytes"] = {{"ray_tree", b.embree_bytes},
+                  {"geometry", b.geometry_bytes},
+                  {"images", b.image_bytes},
+                  {"lights", b.light_bytes},
                   {"film", s.film.memory_bytes()}};
     j["warnings"] = s.scene_warnings;
     return j.dump(2);

@@ -19,12 +19,12 @@ const char* phase_name(Phase phase);
 /// A copied value: where the session stands.
 struct Progress {
     Phase phase = Phase::waiting;
-    double fraction = 0;            ///< of the samples; 0 while building
+    double fraction = 0;  ///< of the samples; 0 while building
     int samples = 0, total_samples = 0;
-    double elapsed = 0, remaining = 0;   ///< seconds since start(); estimate, 0 while unknown
+    double elapsed = 0, remaining = 0;  ///< seconds since start(); estimate, 0 while unknown
     std::int64_t memory_bytes = 0;
-    std::string message;            ///< stage, or the error
-    std::uint64_t revision = 0;     ///< grows whenever the picture changed
+    std::string message;         ///< stage, or the error
+    std::uint64_t revision = 0;  ///< grows whenever the picture changed
 };
 
 /// Facts about a finished (or running) render; JSON object as text, for logs and --cardioid-stats.

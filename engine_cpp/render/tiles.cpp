@@ -33,7 +33,8 @@ std::vector<film::Region> tiles(const film::Region& region, int samples) {
     for (int row = rows - 1; row >= 0; --row) {
         const int y = region.y + row * shape.height;
         for (int x = region.x; x < region.x + region.width; x += shape.width) {
-            list.push_back({x, y, std::min(shape.width, region.x + region.width - x), std::min(shape.height, region.y + region.height - y)});
+            list.push_back({x, y, std::min(shape.width, region.x + region.width - x),
+                            std::min(shape.height, region.y + region.height - y)});
         }
     }
     return list;

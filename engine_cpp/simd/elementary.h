@@ -79,9 +79,21 @@ inline void sincos(Float x, Float& s, Float& c) {
     s = float_of_bits(bits_of(ss) ^ ((n & Int(2)) << 30));
     c = float_of_bits(bits_of(cc) ^ (((n + Int(1)) & Int(2)) << 30));
 }
-inline Float sin(Float x) { Float s, c; sincos(x, s, c); return s; }
-inline Float cos(Float x) { Float s, c; sincos(x, s, c); return c; }
-inline Float tan(Float x) { Float s, c; sincos(x, s, c); return s / c; }
+inline Float sin(Float x) {
+    Float s, c;
+    sincos(x, s, c);
+    return s;
+}
+inline Float cos(Float x) {
+    Float s, c;
+    sincos(x, s, c);
+    return c;
+}
+inline Float tan(Float x) {
+    Float s, c;
+    sincos(x, s, c);
+    return s / c;
+}
 
 inline Float atan(Float x) {
     const Float a = abs(x);

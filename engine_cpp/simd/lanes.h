@@ -28,16 +28,22 @@ struct Mask {
     friend Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
     friend Mask operator^(Mask a, Mask b) { return {a.v ^ b.v}; }
     friend Mask operator~(Mask a) { return {~a.v}; }
-    Mask& operator&=(Mask b) { v &= b.v; return *this; }
-    Mask& operator|=(Mask b) { v |= b.v; return *this; }
+    Mask& operator&=(Mask b) {
+        v &= b.v;
+        return *this;
+    }
+    Mask& operator|=(Mask b) {
+        v |= b.v;
+        return *this;
+    }
 };
 
 /// 32-bit integers; arithmetic wraps, `>>` is logical (hashes and Sobol need it).
 struct Int {
     RawInt v;
     Int() = default;
-    Int(RawInt raw) : v(raw) {}                        // NOLINT(google-explicit-constructor)
-    Int(std::int32_t x) : v(RawInt{} + x) {}           // NOLINT(google-explicit-constructor)
+    Int(RawInt raw) : v(raw) {}               // NOLINT(google-explicit-constructor)
+    Int(std::int32_t x) : v(RawInt{} + x) {}  // NOLINT(google-explicit-constructor)
     static Int of_bits(std::uint32_t x) { return Int(static_cast<std::int32_t>(x)); }
     friend Int operator+(Int a, Int b) { return Int(RawInt(RawUint(a.v) + RawUint(b.v))); }
     friend Int operator-(Int a, Int b) { return Int(RawInt(RawUint(a.v) - RawUint(b.v))); }
@@ -63,8 +69,8 @@ struct Int {
 struct Float {
     RawFloat v;
     Float() = default;
-    Float(RawFloat raw) : v(raw) {}          // NOLINT(google-explicit-constructor)
-    Float(float x) : v(RawFloat{} + x) {}    // NOLINT(google-explicit-constructor)
+    Float(RawFloat raw) : v(raw) {}        // NOLINT(google-explicit-constructor)
+    Float(float x) : v(RawFloat{} + x) {}  // NOLINT(google-explicit-constructor)
     friend Float operator+(Float a, Float b) { return a.v + b.v; }
     friend Float operator-(Float a, Float b) { return a.v - b.v; }
     friend Float operator*(Float a, Float b) { return a.v * b.v; }
@@ -76,10 +82,22 @@ struct Float {
     friend Mask operator>=(Float a, Float b) { return {RawInt(a.v >= b.v)}; }
     friend Mask operator==(Float a, Float b) { return {RawInt(a.v == b.v)}; }
     friend Mask operator!=(Float a, Float b) { return {RawInt(a.v != b.v)}; }
-    Float& operator+=(Float b) { v += b.v; return *this; }
-    Float& operator-=(Float b) { v -= b.v; return *this; }
-    Float& operator*=(Float b) { v *= b.v; return *this; }
-    Float& operator/=(Float b) { v /= b.v; return *this; }
+    Float& operator+=(Float b) {
+        v += b.v;
+        return *this;
+    }
+    Float& operator-=(Float b) {
+        v -= b.v;
+        return *this;
+    }
+    Float& operator*=(Float b) {
+        v *= b.v;
+        return *this;
+    }
+    Float& operator/=(Float b) {
+        v /= b.v;
+        return *this;
+    }
     float operator[](int lane) const { return v[lane]; }
 };
 
@@ -162,7 +180,8 @@ inline Int gather(const std::uint32_t* p, Int index) { return gather(reinterpret
 /// Writes the lanes of `a` that m selects next to each other and returns how many. Writes up to W values: pad arrays by W.
 inline int compress_store(std::int32_t* p, Int a, Mask m) {
 #if CARDIOID_WIDTH == 16
-    store(p, Int(std::bit_cast<RawInt>(_mm512_maskz_compress_epi32(static_cast<__mmask16>(bits(m)), std::bit_cast<__m512i>(a.v)))));
+    store(p, Int(std::bit_cast<RawInt>(
+                 _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits(m)), std::bit_cast<__m512i>(a.v)))));
     return count(m);
 #else
     int n = 0;
@@ -197,7 +216,8 @@ inline Float safe_sqrt(Float a) { return sqrt(max(a, 0.0f)); }
 
 inline Float floor(Float a) {
 #if CARDIOID_WIDTH == 16
-    return std::bit_cast<RawFloat>(_mm512_roundscale_ps(std::bit_cast<__m512>(a.v), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+    return std::bit_cast<RawFloat>(
+        _mm512_roundscale_ps(std::bit_cast<__m512>(a.v), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
 #elif CARDIOID_WIDTH == 8
     return std::bit_cast<RawFloat>(_mm256_floor_ps(std::bit_cast<__m256>(a.v)));
 #else
@@ -209,9 +229,11 @@ inline Float ceil(Float a) { return -floor(-a); }
 /// a·b + c with one rounding where the hardware has it.
 inline Float fma(Float a, Float b, Float c) {
 #if CARDIOID_WIDTH == 16
-    return std::bit_cast<RawFloat>(_mm512_fmadd_ps(std::bit_cast<__m512>(a.v), std::bit_cast<__m512>(b.v), std::bit_cast<__m512>(c.v)));
+    return std::bit_cast<RawFloat>(
+        _mm512_fmadd_ps(std::bit_cast<__m512>(a.v), std::bit_cast<__m512>(b.v), std::bit_cast<__m512>(c.v)));
 #elif CARDIOID_WIDTH == 8
-    return std::bit_cast<RawFloat>(_mm256_fmadd_ps(std::bit_cast<__m256>(a.v), std::bit_cast<__m256>(b.v), std::bit_cast<__m256>(c.v)));
+    return std::bit_cast<RawFloat>(
+        _mm256_fmadd_ps(std::bit_cast<__m256>(a.v), std::bit_cast<__m256>(b.v), std::bit_cast<__m256>(c.v)));
 #else
     return Float(a.v[0] * b.v[0] + c.v[0]);
 #endif

@@ -45,7 +45,9 @@ struct Spectrum {
 inline Float luminance(Spectrum c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 inline Float max_component(Spectrum c) { return max(c.r, max(c.g, c.b)); }
 inline Float average(Spectrum c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
-inline Spectrum select(Mask m, Spectrum a, Spectrum b) { return {select(m, a.r, b.r), select(m, a.g, b.g), select(m, a.b, b.b)}; }
+inline Spectrum select(Mask m, Spectrum a, Spectrum b) {
+    return {select(m, a.r, b.r), select(m, a.g, b.g), select(m, a.b, b.b)};
+}
 
 /// Orthonormal basis with z = n (Duff et al. 2017). n must be of unit length.
 struct Frame {
@@ -75,7 +77,9 @@ inline void store3(float (*rows)[64], int i, Vec3 a) {
     store(rows[1] + i, a.y);
     store(rows[2] + i, a.z);
 }
-inline Spectrum load_rgb(const float (*rows)[64], int i) { return {load(rows[0] + i), load(rows[1] + i), load(rows[2] + i)}; }
+inline Spectrum load_rgb(const float (*rows)[64], int i) {
+    return {load(rows[0] + i), load(rows[1] + i), load(rows[2] + i)};
+}
 inline void store_rgb(float (*rows)[64], int i, Spectrum c) {
     store(rows[0] + i, c.r);
     store(rows[1] + i, c.g);

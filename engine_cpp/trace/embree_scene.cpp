@@ -14,9 +14,7 @@ bool count_memory(void* user, ssize_t bytes, bool /*post*/) {
     return true;
 }
 
-bool continue_build(void* user, double /*fraction*/) {
-    return (*static_cast<std::function<bool()>*>(user))();
-}
+bool continue_build(void* user, double /*fraction*/) { return (*static_cast<std::function<bool()>*>(user))(); }
 }  // namespace
 
 EmbreeScene::EmbreeScene(const GeometryPool& pool, bool robust, const std::function<bool(int)>& has_transparency,
@@ -85,15 +83,19 @@ void EmbreeScene::commit(RTCScene scene) {
     } else if (error == RTC_ERROR_OUT_OF_MEMORY) {
         throw std::runtime_error("Not enough memory for the geometry: simplify meshes or use instances");
     } else if (error != RTC_ERROR_NONE) {
-        throw std::runtime_error("Embree failed to build the scene (error " + std::to_string(static_cast<int>(error)) + ")");
+        throw std::runtime_error("Embree failed to build the scene (error " + std::to_string(static_cast<int>(error)) +
+                                 ")");
     }
 }
 
-void EmbreeScene::attach_triangles(RTCScene scene, const GeometryPool& pool, int mesh, unsigned id, std::uint32_t mask) {
+void EmbreeScene::attach_triangles(RTCScene scene, const GeometryPool& pool, int mesh, unsigned id,
+                                   std::uint32_t mask) {
     const GeometryPool::MeshRange& r = pool.meshes()[mesh];
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, pool.positions(mesh), 0, 12, r.vertices);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, pool.triangles(mesh), 0, 12, r.triangles);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, pool.positions(mesh), 0, 12,
+                               r.vertices);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, pool.triangles(mesh), 0, 12,
+                               r.triangles);
     rtcSetGeometryMask(geometry, mask);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);

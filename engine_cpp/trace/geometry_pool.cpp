@@ -24,7 +24,8 @@ const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const st
 }
 }  // namespace
 
-GeometryPool::GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names, int default_material) {
+GeometryPool::GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names,
+                           int default_material) {
     flatten(desc);
     copy_meshes(desc);
     copy_attributes(desc, attribute_names);
@@ -75,15 +76,18 @@ void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
     // Embree reads up to 4 bytes past the last vertex; gathers of masked lanes need at least one element.
     positions_.assign(3 * vertices + 4, 0.0f);
     triangles_.assign(3 * triangles + 3, 0);
-    const bool any_smooth = std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.smooth; });
+    const bool any_smooth =
+        std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.smooth; });
     packed_normals_.assign(any_smooth ? 3 * triangles + 3 : 3, 0);
-    const bool any_slots = std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.multi_material; });
+    const bool any_slots =
+        std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.multi_material; });
     slots_.assign(any_slots ? triangles + 1 : 1, 0);
     for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
         const MeshRange& r = ranges_[m];
         if (!r.used) continue;
         const auto& mesh = desc.meshes[m];
-        std::memcpy(triangles_.data() + 3 * std::size_t{r.first_triangle}, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t));
+        std::memcpy(triangles_.data() + 3 * std::size_t{r.first_triangle}, mesh.triangles.data(),
+                    mesh.triangles.size() * sizeof(std::uint32_t));
         float* out = positions_.data() + 3 * std::size_t{r.first_vertex};
         std::memcpy(out, mesh.positions.data(), mesh.positions.size() * sizeof(float));
         Affine normal_map;
@@ -101,7 +105,8 @@ void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
             std::uint32_t* packed = packed_normals_.data() + 3 * std::size_t{r.first_triangle};
             for (std::size_t c = 0; c < 3 * std::size_t{r.triangles}; ++c) {
                 const float* n = mesh.corner_normals.data() + 3 * c;
-                packed[c] = pack_normal(r.baked ? normal_map.transposed_vector({n[0], n[1], n[2]}) : Float3{n[0], n[1], n[2]});
+                packed[c] =
+                    pack_normal(r.baked ? normal_map.transposed_vector({n[0], n[1], n[2]}) : Float3{n[0], n[1], n[2]});
             }
         }
         if (r.multi_material) std::copy(mesh.slots.begin(), mesh.slots.end(), slots_.begin() + r.first_triangle);
@@ -126,7 +131,8 @@ void GeometryPool::copy_attributes(const scene::SceneDesc& desc, const std::vect
     }
     mesh_infos_.resize(std::max<std::size_t>(1, desc.meshes.size()));
     for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
-        mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, desc.meshes[m].generated_min, desc.meshes[m].generated_size};
+        mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, desc.meshes[m].generated_min,
+                          desc.meshes[m].generated_size};
     }
 }
 
@@ -167,7 +173,9 @@ void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_mate
     }
     if (infos_.empty()) {
         infos_.emplace_back();
-        for (auto* v : {&mesh_, &first_triangle_, &first_vertex_, &smooth_, &baked_, &flip_, &slot_mask_, &first_material_, &holdout_}) v->push_back(0);
+        for (auto* v : {&mesh_, &first_triangle_, &first_vertex_, &smooth_, &baked_, &flip_, &slot_mask_,
+                        &first_material_, &holdout_})
+            v->push_back(0);
         slot_materials_.push_back(default_material);
     }
 }
@@ -218,8 +226,8 @@ void GeometryPool::fill(SceneView& view) const {
     g.attribute_names = attribute_names_;
     g.instances = infos_.data();
     g.meshes = mesh_infos_.data();
-    view.instances = {mesh_.data(), first_triangle_.data(), first_vertex_.data(), smooth_.data(), baked_.data(), flip_.data(),
-                      slot_mask_.data(), first_material_.data(), holdout_.data()};
+    view.instances = {mesh_.data(), first_triangle_.data(), first_vertex_.data(),   smooth_.data(), baked_.data(),
+                      flip_.data(), slot_mask_.data(),      first_material_.data(), holdout_.data()};
     view.packed_normals = packed_normals_.data();
     view.slots = slots_.data();
     view.slot_materials = slot_materials_.data();
@@ -227,9 +235,10 @@ void GeometryPool::fill(SceneView& view) const {
 }
 
 std::int64_t GeometryPool::memory_bytes() const {
-    return static_cast<std::int64_t>(positions_.capacity() * 4 + triangles_.capacity() * 4 + packed_normals_.capacity() * 4 +
-                                     slots_.capacity() * 4 + floats_.capacity() * 4 + infos_.capacity() * sizeof(nodes::InstanceInfo) +
-                                     mesh_.capacity() * 9 * 4 + slot_materials_.capacity() * 4);
+    return static_cast<std::int64_t>(positions_.capacity() * 4 + triangles_.capacity() * 4 +
+                                     packed_normals_.capacity() * 4 + slots_.capacity() * 4 + floats_.capacity() * 4 +
+                                     infos_.capacity() * sizeof(nodes::InstanceInfo) + mesh_.capacity() * 9 * 4 +
+                                     slot_materials_.capacity() * 4);
 }
 
 }  // namespace cardioid::trace

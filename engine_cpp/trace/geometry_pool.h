@@ -34,7 +34,9 @@ public:
     const std::vector<MeshRange>& meshes() const { return ranges_; }
     const std::vector<PlacedMesh>& placed() const { return placed_; }
     const float* positions(int mesh) const { return positions_.data() + 3 * std::size_t{ranges_[mesh].first_vertex}; }
-    const std::uint32_t* triangles(int mesh) const { return triangles_.data() + 3 * std::size_t{ranges_[mesh].first_triangle}; }
+    const std::uint32_t* triangles(int mesh) const {
+        return triangles_.data() + 3 * std::size_t{ranges_[mesh].first_triangle};
+    }
     bool baked(int instance) const { return baked_[instance] != 0; }
     /// Material id of a triangle of an instance.
     int material(int instance, std::uint32_t triangle) const;
@@ -45,7 +47,8 @@ public:
 
 private:
     void flatten(const scene::SceneDesc& desc);
-    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent, std::uint8_t visibility, int depth);
+    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent,
+               std::uint8_t visibility, int depth);
     void copy_meshes(const scene::SceneDesc& desc);
     void copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names);
     void make_instances(const scene::SceneDesc& desc, int default_material);
@@ -61,7 +64,8 @@ private:
     std::vector<nodes::AttributeRef> attributes_;
     std::vector<nodes::InstanceInfo> infos_;
     std::vector<nodes::MeshInfo> mesh_infos_;
-    std::vector<std::int32_t> mesh_, first_triangle_, first_vertex_, smooth_, baked_, flip_, slot_mask_, first_material_, holdout_;
+    std::vector<std::int32_t> mesh_, first_triangle_, first_vertex_, smooth_, baked_, flip_, slot_mask_,
+        first_material_, holdout_;
     int attribute_names_ = 0;
     bool any_holdout_ = false;
 };

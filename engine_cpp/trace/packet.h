@@ -29,14 +29,18 @@ struct RayLanes {
 struct HitLanes {
     Mask hit;
     Float t, u, v;
-    Vec3 ng;          ///< not of unit length; in the mesh's space for instances that are not baked
+    Vec3 ng;  ///< not of unit length; in the mesh's space for instances that are not baked
     Int triangle, instance;
 };
 
 template <class T>
-inline float* float_lanes(T& field) { return reinterpret_cast<float*>(&field); }
+inline float* float_lanes(T& field) {
+    return reinterpret_cast<float*>(&field);
+}
 template <class T>
-inline std::int32_t* int_lanes(T& field) { return reinterpret_cast<std::int32_t*>(&field); }
+inline std::int32_t* int_lanes(T& field) {
+    return reinterpret_cast<std::int32_t*>(&field);
+}
 
 inline void fill_ray(EmbreeRay& to, const RayLanes& ray) {
     store(float_lanes(to.org_x), ray.o.x);

@@ -29,25 +29,25 @@ struct MaterialView {
     const nodes::Program* transparency = nullptr;
     nodes::ProgramInfo info;
     std::int32_t pass_index = 0;
-    bool emission_sampled = false;   ///< its triangles are in the light table
+    bool emission_sampled = false;  ///< its triangles are in the light table
 };
 
 /// One array per field, indexed by instance; gathered by kernels.
 struct InstanceArrays {
     const std::int32_t* mesh = nullptr;
-    const std::int32_t* first_triangle = nullptr;   ///< into triangles, packed normals (both × 3) and slots
+    const std::int32_t* first_triangle = nullptr;  ///< into triangles, packed normals (both × 3) and slots
     const std::int32_t* first_vertex = nullptr;
-    const std::int32_t* smooth = nullptr;           ///< 1: packed normals exist
-    const std::int32_t* baked = nullptr;            ///< 1: positions and normals of its mesh are in world space
-    const std::int32_t* flip = nullptr;             ///< 1: baked with a mirroring transform, geometric normals turn
-    const std::int32_t* slot_mask = nullptr;        ///< 0: one material for the whole mesh; ~0: look the slot up
-    const std::int32_t* first_material = nullptr;   ///< into slot_materials
+    const std::int32_t* smooth = nullptr;          ///< 1: packed normals exist
+    const std::int32_t* baked = nullptr;           ///< 1: positions and normals of its mesh are in world space
+    const std::int32_t* flip = nullptr;            ///< 1: baked with a mirroring transform, geometric normals turn
+    const std::int32_t* slot_mask = nullptr;       ///< 0: one material for the whole mesh; ~0: look the slot up
+    const std::int32_t* first_material = nullptr;  ///< into slot_materials
     const std::int32_t* holdout = nullptr;
 };
 
 struct CameraView {
     scene::CameraDesc desc;
-    float pixel_x = 0, pixel_y = 0;   ///< size of a pixel on the view plane
+    float pixel_x = 0, pixel_y = 0;  ///< size of a pixel on the view plane
 };
 
 struct SceneView {
@@ -59,16 +59,17 @@ struct SceneView {
     const std::uint32_t* packed_normals = nullptr;  ///< 3 per triangle, octahedral 2×16 bits
     const std::int32_t* slots = nullptr;            ///< per triangle
     const std::int32_t* slot_materials = nullptr;
-    const MaterialView* materials = nullptr;        ///< materials, then lamps' graphs, then the world: one id space of programs
-    int material_count = 0;                         ///< materials alone (the default grey is the last)
-    int world_program = 0;                          ///< id of the world
+    const MaterialView* materials =
+        nullptr;             ///< materials, then lamps' graphs, then the world: one id space of programs
+    int material_count = 0;  ///< materials alone (the default grey is the last)
+    int world_program = 0;   ///< id of the world
     const light::LightData* lights = nullptr;
     bool has_lights = false;
-    bool lights_are_limited = false;                ///< some lamp or the world is hidden from a kind of lobe or ends early
-    bool has_world = false;                         ///< something shines from outside
+    bool lights_are_limited = false;  ///< some lamp or the world is hidden from a kind of lobe or ends early
+    bool has_world = false;           ///< something shines from outside
     std::uint8_t world_visibility = scene::visible_all;
     int world_max_bounces = 1024;
-    Float3 world_constant{0, 0, 0};                 ///< its radiance when its program is constant
+    Float3 world_constant{0, 0, 0};  ///< its radiance when its program is constant
     CameraView camera;
     scene::Settings settings;
 };

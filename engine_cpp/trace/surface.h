@@ -46,11 +46,12 @@ inline Vec3 vector_to_world(const nodes::InstanceInfo* instances, Int instance, 
 }
 
 struct SurfaceNormals {
-    Vec3 ng, n;        ///< unit, on the side of wo
+    Vec3 ng, n;  ///< unit, on the side of wo
     Mask backfacing;
 };
 
-inline SurfaceNormals surface_normals(const trace::SceneView& scene, Int instance, Int triangle, Vec3 raw_ng, Float u, Float v, Vec3 wo) {
+inline SurfaceNormals surface_normals(const trace::SceneView& scene, Int instance, Int triangle, Vec3 raw_ng, Float u,
+                                      Float v, Vec3 wo) {
     const trace::InstanceArrays& in = scene.instances;
     const Mask baked = gather(in.baked, instance) != Int(0);
     const Mask smooth = gather(in.smooth, instance) != Int(0);

@@ -65,7 +65,7 @@ struct TraceableScene::Impl {
     nodes::Warnings warnings;
     std::vector<std::string> attribute_names;
     std::unique_ptr<image::ImageStore> images;
-    std::vector<nodes::CompiledGraph> graphs;   // materials, default grey, lamps, world: SceneView::materials' ids
+    std::vector<nodes::CompiledGraph> graphs;  // materials, default grey, lamps, world: SceneView::materials' ids
     std::vector<bool> use_transparent_shadow;
     std::vector<MaterialView> materials;
     std::unique_ptr<GeometryPool> pool;
@@ -81,7 +81,8 @@ struct TraceableScene::Impl {
     int default_material() const { return view.material_count - 1; }
 };
 
-TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress& progress) : impl_(std::make_unique<Impl>()) {
+TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress& progress)
+    : impl_(std::make_unique<Impl>()) {
     Impl& s = *impl_;
     const auto stage = [&](const char* name) {
         if (progress(name)) throw BuildCancelled{};
@@ -90,7 +91,8 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
     stage("Loading images");
     {
         const Stopwatch watch(s.stats.images_seconds);
-        s.images = std::make_unique<image::ImageStore>(desc.images, desc.settings.ocio_config, desc.settings.texture_cache_mb);
+        s.images =
+            std::make_unique<image::ImageStore>(desc.images, desc.settings.ocio_config, desc.settings.texture_cache_mb);
     }
     stage("Compiling materials");
     {
@@ -130,7 +132,8 @@ std::vector<std::string> TraceableScene::warnings() const {
 }
 
 void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
-    const auto compile = [&](const std::string& name, nodes::GraphKind kind, const scene::GraphDesc& graph, Float3 fallback) {
+    const auto compile = [&](const std::string& name, nodes::GraphKind kind, const scene::GraphDesc& graph,
+                             Float3 fallback) {
         nodes::CompileContext context;
         context.name = name;
         context.kind = kind;
@@ -181,7 +184,8 @@ void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const Bu
     const Stopwatch watch(stats.bvh_seconds);
     const auto has_transparency = [&](int instance) {
         const auto ids = pool->materials_of(instance);
-        return std::any_of(ids.begin(), ids.end(), [&](int id) { return materials[id].info.has_transparency && use_transparent_shadow[id]; });
+        return std::any_of(ids.begin(), ids.end(),
+                           [&](int id) { return materials[id].info.has_transparency && use_transparent_shadow[id]; });
     };
     const auto keep_going = [&] { return !progress("Building the ray tracing tree"); };
     embree = std::make_unique<EmbreeScene>(*pool, desc.settings.robust_intersection, has_transparency, keep_going);
@@ -284,7 +288,8 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
         world.map_resolution = desc.world->map_resolution;
         if (world.sampling == scene::WorldSampling::automatic) {
             world.map_resolution = 0;
-            for (int i = 0; i < images->size(); ++i) world.map_resolution = std::max(world.map_resolution, images->width(i));
+            for (int i = 0; i < images->size(); ++i)
+                world.map_resolution = std::max(world.map_resolution, images->width(i));
         }
         world.visibility = desc.world->visibility;
         world.max_bounces = desc.world->max_bounces;
@@ -299,10 +304,12 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
     view.lights = &lights->data();
     view.has_lights = !lights->empty();
     for (const auto& l : lamps) {
-        view.lights_are_limited = view.lights_are_limited || is_limited(l.desc.visibility, l.desc.max_bounces, desc.settings.max_bounces);
+        view.lights_are_limited =
+            view.lights_are_limited || is_limited(l.desc.visibility, l.desc.max_bounces, desc.settings.max_bounces);
     }
     if (desc.world) {
-        view.lights_are_limited = view.lights_are_limited || is_limited(desc.world->visibility, desc.world->max_bounces, desc.settings.max_bounces);
+        view.lights_are_limited = view.lights_are_limited || is_limited(desc.world->visibility, desc.world->max_bounces,
+                                                                        desc.settings.max_bounces);
     }
 }
 

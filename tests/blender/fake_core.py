@@ -39,7 +39,8 @@ MATERIAL = {"name": TEXT, "graph": "graph", "viewport_color": _COLOR, "metallic"
 LIGHT = {"name": TEXT, "kind": one_of("point", "spot", "sun", "area"), "transform": _AFFINE, "color": _COLOR,
          "energy": NUMBER, "radius": NUMBER, "spot_angle": NUMBER, "spot_blend": NUMBER, "angle": NUMBER,
          "shape": one_of("square", "rectangle", "disk", "ellipse"), "size_x": NUMBER, "size_y": NUMBER,
-         "spread": NUMBER, "cast_shadow": FLAG, "use_mis": FLAG, "legacy_lamp": FLAG, "soft_falloff": FLAG, "normalize": FLAG,
+         "spread": NUMBER, "cast_shadow": FLAG, "use_mis": FLAG, "legacy_lamp": FLAG,
+         "soft_falloff": FLAG, "normalize": FLAG,
          "max_bounces": WHOLE, "visibility": WHOLE, "portal": FLAG, "graph": "graph"}
 WORLD = {"name": TEXT, "graph": "graph", "color": _COLOR, "sampling": one_of("none", "automatic", "manual"),
          "map_resolution": WHOLE, "visibility": WHOLE, "max_bounces": WHOLE}

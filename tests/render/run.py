@@ -32,12 +32,11 @@ ROUNDS = (8, 24, 64)
 REFERENCE_SEED = 1000
 
 KNOWN_DIFFERENCES = {
-    ("3.4", "glass_rough"): "3.4 weighs rough glass by Fresnel at the smooth normal, later versions and Cardioid per facet",
-    ("3.4", "glossy_multi_ggx"): "3.4 walks between facets at random, later versions and Cardioid compensate by albedo",
+    ("3.4", "glossy_multi_ggx"): "3.4 walks between facets at random; later versions and Cardioid compensate by albedo",
     ("3.4", "glossy_beckmann"): "Cardioid has no Beckmann distribution: GGX stands in",
 }
-"""Cases whose blocks differ for a reason that the docs tell. Their means must still pass; they count as skipped, and one
-whose blocks agree fails, so that the list cannot outlive its reasons."""
+"""Cases whose blocks differ for a reason that the docs tell. Their means must still pass; they count as skipped, and
+one whose blocks agree fails, so that the list cannot outlive its reasons."""
 
 
 @dataclass

@@ -15,10 +15,20 @@ SINCE: dict[str, tuple[int, int]] = {
     "corner_normals": (4, 1),        # mesh.corner_normals; before: calc_normals_split and auto smooth
     "array_attributes": (4, 1),      # 'position' and '.corner_vert' are attributes, uv_layer.uv exists
     "principled_2": (4, 0),          # Principled BSDF with Coat, Sheen Weight, …
+    "diffuse_2": (4, 3),             # rough diffuse keeps its energy
+    "voronoi_2": (5, 0),             # another hash of the cells
     "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
     "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
     "emission_sampling": (3, 5),     # material.cycles.emission_sampling replaces sample_as_light
     "material_transparent_shadow": (4, 2),  # on the material; before: on material.cycles
+}
+
+# Nodes that mean something else since then: docs/nodes.md tells what.
+NODE_SINCE = {
+    "ShaderNodeBsdfPrincipled": "principled_2",
+    "ShaderNodeBsdfGlass": "principled_2",
+    "ShaderNodeBsdfDiffuse": "diffuse_2",
+    "ShaderNodeTexVoronoi": "voronoi_2",
 }
 
 
@@ -68,6 +78,5 @@ def has_light_linking(obj: Any) -> bool:
 
 def node_versions(node_type: str) -> dict[str, Any]:
     """Parameters that tell apart nodes which share a type but not a meaning."""
-    if node_type == "ShaderNodeBsdfPrincipled":
-        return {"version": 2 if has("principled_2") else 1}
-    return {}
+    key = NODE_SINCE.get(node_type)
+    return {} if key is None else {"version": 2 if has(key) else 1}

@@ -37,10 +37,13 @@ int parse(int argc, char** argv, Options& o) {
     app.add_option("--time-limit", o.time_limit, "seconds, 0: none")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "0: all")->check(CLI::NonNegativeNumber);
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
-    app.add_option("--lanes", o.lanes, "width of the kernels: 1, 8 or 16 (0: the best here)")->check(CLI::IsMember({0, 1, 8, 16}));
+    app.add_option("--lanes", o.lanes, "width of the kernels: 1, 8 or 16 (0: the best here)")
+        ->check(CLI::IsMember({0, 1, 8, 16}));
     app.add_option("--stats", o.stats, "write what was counted as JSON");
-    app.add_option("--pixel", o.pixel, "x,y,sample: trace this sample alone and print its vertices (x, y from the bottom left)")
-        ->delimiter(',')->expected(3);
+    app.add_option("--pixel", o.pixel,
+                   "x,y,sample: trace this sample alone and print its vertices (x, y from the bottom left)")
+        ->delimiter(',')
+        ->expected(3);
     app.add_flag("-q,--quiet", o.quiet, "no progress");
     CLI11_PARSE(app, argc, argv);
     return -1;
@@ -60,7 +63,8 @@ void write_layers(const film::Frame& frame, const std::string& path, const std::
     std::size_t at = 0;
     for (const film::Pass& p : frame.passes) {
         const auto channels = static_cast<std::size_t>(p.channels);
-        for (std::size_t i = 0; i < pixels; ++i) std::copy_n(&p.data[i * channels], channels, &all[i * names.size() + at]);
+        for (std::size_t i = 0; i < pixels; ++i)
+            std::copy_n(&p.data[i * channels], channels, &all[i * names.size() + at]);
         at += channels;
     }
     image::write_exr(path, frame.width, frame.height, names, all, {{"cardioid:stats", stats}});
@@ -86,7 +90,8 @@ int run(const Options& o) {
     if (o.time_limit >= 0) desc->settings.time_limit = static_cast<float>(o.time_limit);
     if (o.seed >= 0) desc->settings.seed = static_cast<std::uint32_t>(o.seed);
     const auto problems = scene::validate(*desc);
-    for (const auto& p : problems) std::cerr << (p.severity == scene::Severity::error ? "error: " : "warning: ") << p.message << '\n';
+    for (const auto& p : problems)
+        std::cerr << (p.severity == scene::Severity::error ? "error: " : "warning: ") << p.message << '\n';
     if (scene::has_errors(problems)) return 2;
     if (!o.pixel.empty()) {
         std::cout << render::replay_sample(*desc, o.pixel[0], o.pixel[1], o.pixel[2]);
@@ -96,7 +101,9 @@ int run(const Options& o) {
     session.start();
     while (!session.wait(0.25)) {
         const render::Progress p = session.progress();
-        if (!o.quiet) std::fprintf(stderr, "\r%-40s %5.1f %%  %6.1f s", p.message.empty() ? "rendering" : p.message.c_str(), 100 * p.fraction, p.elapsed);
+        if (!o.quiet)
+            std::fprintf(stderr, "\r%-40s %5.1f %%  %6.1f s", p.message.empty() ? "rendering" : p.message.c_str(),
+                         100 * p.fraction, p.elapsed);
     }
     if (!o.quiet) std::fputc('\n', stderr);
     const render::Progress p = session.progress();
@@ -120,8 +127,6 @@ int main(int argc, char** argv) {
         return run(options);
     } catch (const scene::SceneError& e) {
         for (const auto& p : e.problems()) std::cerr << "error: " << p << '\n';
-    } catch (const std::exception& e) {
-        std::cerr << "error: " << e.what() << '\n';
-    }
+    } catch (const std::exception& e) { std::cerr << "error: " << e.what() << '\n'; }
     return 1;
 }

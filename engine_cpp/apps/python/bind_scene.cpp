@@ -68,14 +68,16 @@ scene::AttributeDesc read_attribute(const py::handle& item, const std::string& m
     const auto array = py::reinterpret_borrow<py::array>(data);
     // Corner data may come as (triangles, 3, channels).
     const bool per_corner = array.ndim() == 3;
-    a.data = float_array(data, per_corner ? std::vector<py::ssize_t>{-1, 3, -1} : std::vector<py::ssize_t>{-1, -1}, what);
+    a.data =
+        float_array(data, per_corner ? std::vector<py::ssize_t>{-1, 3, -1} : std::vector<py::ssize_t>{-1, -1}, what);
     a.channels = static_cast<int>(array.shape(array.ndim() - 1));
     return a;
 }
 
-int add_mesh(PyScene& s, const std::string& name, const py::object& positions, const py::object& triangles, const py::object& slots,
-             const py::object& corner_normals, const py::iterable& attributes, const std::string& active_uv,
-             const std::string& active_color, const std::array<float, 3>& generated_min, const std::array<float, 3>& generated_size) {
+int add_mesh(PyScene& s, const std::string& name, const py::object& positions, const py::object& triangles,
+             const py::object& slots, const py::object& corner_normals, const py::iterable& attributes,
+             const std::string& active_uv, const std::string& active_color, const std::array<float, 3>& generated_min,
+             const std::array<float, 3>& generated_size) {
     const std::string what = "mesh '" + name + "'";
     scene::MeshDesc m;
     m.name = name;
@@ -101,7 +103,8 @@ int add_instance(PyScene& s, const py::dict& d, int group) {
         desc.instances.push_back(std::move(instance));
         return last_index(desc.instances.size());
     }
-    if (group >= static_cast<int>(desc.groups.size())) throw scene::SceneError(kind_and_name("object", d) + ": there is no group " + std::to_string(group));
+    if (group >= static_cast<int>(desc.groups.size()))
+        throw scene::SceneError(kind_and_name("object", d) + ": there is no group " + std::to_string(group));
     desc.groups[group].instances.push_back(std::move(instance));
     return last_index(desc.groups[group].instances.size());
 }
@@ -109,43 +112,70 @@ int add_instance(PyScene& s, const py::dict& d, int group) {
 }  // namespace
 
 void bind_scene(py::module_& m) {
-    py::class_<PyScene, std::shared_ptr<PyScene>>(m, "Scene", "Everything that a render is told; see docs/python-api.md.")
+    py::class_<PyScene, std::shared_ptr<PyScene>>(m, "Scene",
+                                                  "Everything that a render is told; see docs/python-api.md.")
         .def(py::init<>())
         .def("add_image", &add_image, py::arg("image"))
-        .def("add_material", [](PyScene& s, const py::dict& d) {
-            s.edit().materials.push_back(read<scene::MaterialDesc>("material", d));
-            return last_index(s.edit().materials.size());
-        }, py::arg("material"))
-        .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("triangles"), py::arg("slots") = py::none(),
-             py::arg("corner_normals") = py::none(), py::arg("attributes") = py::list(), py::arg("active_uv") = "",
-             py::arg("active_color") = "", py::arg("generated_min") = std::array<float, 3>{0, 0, 0},
+        .def(
+            "add_material",
+            [](PyScene& s, const py::dict& d) {
+                s.edit().materials.push_back(read<scene::MaterialDesc>("material", d));
+                return last_index(s.edit().materials.size());
+            },
+            py::arg("material"))
+        .def("add_mesh", &add_mesh, py::arg("name"), py::arg("positions"), py::arg("triangles"),
+             py::arg("slots") = py::none(), py::arg("corner_normals") = py::none(), py::arg("attributes") = py::list(),
+             py::arg("active_uv") = "", py::arg("active_color") = "",
+             py::arg("generated_min") = std::array<float, 3>{0, 0, 0},
              py::arg("generated_size") = std::array<float, 3>{1, 1, 1})
-        .def("add_group", [](PyScene& s, const std::string& name) {
-            s.edit().groups.push_back({name, {}});
-            return last_index(s.edit().groups.size());
-        }, py::arg("name"))
+        .def(
+            "add_group",
+            [](PyScene& s, const std::string& name) {
+                s.edit().groups.push_back({name, {}});
+                return last_index(s.edit().groups.size());
+            },
+            py::arg("name"))
         .def("add_instance", &add_instance, py::arg("instance"), py::arg("group") = -1)
-        .def("add_light", [](PyScene& s, const py::dict& d) {
-            s.edit().lights.push_back(read<scene::LightDesc>("light", d));
-            return last_index(s.edit().lights.size());
-        }, py::arg("light"))
-        .def("set_world", [](PyScene& s, const py::dict& d) { s.edit().world = read<scene::WorldDesc>("world", d); }, py::arg("world"))
-        .def("set_camera", [](PyScene& s, const py::dict& d) { s.edit().camera = read<scene::CameraDesc>("camera", d); }, py::arg("camera"))
-        .def("set_settings", [](PyScene& s, const py::dict& d) { s.edit().settings = read<scene::Settings>("settings", d); }, py::arg("settings"))
-        .def("problems", [](PyScene& s) { return scene::messages(s.validated().problems); },
-             "Everything that is wrong or was replaced, with the object's name.")
-        .def("memory_estimate", [](PyScene& s) { return scene::memory_estimate(*s.validated().desc).total(); }, "Bytes, before anything is built.")
-        .def("save", [](PyScene& s, const std::string& path) {
-            const auto desc = s.validated().desc;
-            const py::gil_scoped_release release;
-            scene::save_scene(*desc, path);
-        }, py::arg("path"))
-        .def_static("load", [](const std::string& path) {
-            auto s = std::make_shared<PyScene>();
-            const py::gil_scoped_release release;
-            s->edit() = scene::load_scene(path);
-            return s;
-        }, py::arg("path"));
+        .def(
+            "add_light",
+            [](PyScene& s, const py::dict& d) {
+                s.edit().lights.push_back(read<scene::LightDesc>("light", d));
+                return last_index(s.edit().lights.size());
+            },
+            py::arg("light"))
+        .def(
+            "set_world", [](PyScene& s, const py::dict& d) { s.edit().world = read<scene::WorldDesc>("world", d); },
+            py::arg("world"))
+        .def(
+            "set_camera", [](PyScene& s, const py::dict& d) { s.edit().camera = read<scene::CameraDesc>("camera", d); },
+            py::arg("camera"))
+        .def(
+            "set_settings",
+            [](PyScene& s, const py::dict& d) { s.edit().settings = read<scene::Settings>("settings", d); },
+            py::arg("settings"))
+        .def(
+            "problems", [](PyScene& s) { return scene::messages(s.validated().problems); },
+            "Everything that is wrong or was replaced, with the object's name.")
+        .def(
+            "memory_estimate", [](PyScene& s) { return scene::memory_estimate(*s.validated().desc).total(); },
+            "Bytes, before anything is built.")
+        .def(
+            "save",
+            [](PyScene& s, const std::string& path) {
+                const auto desc = s.validated().desc;
+                const py::gil_scoped_release release;
+                scene::save_scene(*desc, path);
+            },
+            py::arg("path"))
+        .def_static(
+            "load",
+            [](const std::string& path) {
+                auto s = std::make_shared<PyScene>();
+                const py::gil_scoped_release release;
+                s->edit() = scene::load_scene(path);
+                return s;
+            },
+            py::arg("path"));
 }
 
 }  // namespace cardioid::python

@@ -46,16 +46,20 @@ py::dict progress_dict(const render::Session& session) {
 }  // namespace
 
 void bind_session(py::module_& m) {
-    py::class_<film::Frame, std::shared_ptr<film::Frame>>(m, "Frame", "A copy of a picture: passes as (height, width, channels) float32, bottom row first.")
+    py::class_<film::Frame, std::shared_ptr<film::Frame>>(
+        m, "Frame", "A copy of a picture: passes as (height, width, channels) float32, bottom row first.")
         .def_readonly("width", &film::Frame::width)
         .def_readonly("height", &film::Frame::height)
         .def_readonly("samples", &film::Frame::samples)
-        .def("names", [](const film::Frame& f) {
-            std::vector<std::string> names;
-            for (const auto& p : f.passes) names.push_back(p.name);
-            return names;
-        })
-        .def("array", [](const std::shared_ptr<film::Frame>& f, const std::string& name) { return pass_array(f, name); }, py::arg("name"));
+        .def("names",
+             [](const film::Frame& f) {
+                 std::vector<std::string> names;
+                 for (const auto& p : f.passes) names.push_back(p.name);
+                 return names;
+             })
+        .def(
+            "array", [](const std::shared_ptr<film::Frame>& f, const std::string& name) { return pass_array(f, name); },
+            py::arg("name"));
 
     const auto no_gil = py::call_guard<py::gil_scoped_release>();
     py::class_<render::Session>(m, "Session", "One render on threads of its own; the host polls.")
@@ -64,10 +68,11 @@ void bind_session(py::module_& m) {
         .def("wait", &render::Session::wait, py::arg("seconds"), no_gil, "True when the session has ended.")
         .def("cancel", &render::Session::cancel, no_gil)
         .def("progress", &progress_dict)
-        .def("frame", [](const render::Session& s) {
-            const py::gil_scoped_release release;
-            return std::const_pointer_cast<film::Frame>(s.frame());
-        })
+        .def("frame",
+             [](const render::Session& s) {
+                 const py::gil_scoped_release release;
+                 return std::const_pointer_cast<film::Frame>(s.frame());
+             })
         .def("warnings", &render::Session::warnings)
         .def("stats", [](const render::Session& s) { return from_json(nlohmann::json::parse(s.stats())); });
 }

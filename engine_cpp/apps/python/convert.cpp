@@ -21,22 +21,28 @@ json number(double v) {
 
 std::string shape_text(const std::vector<py::ssize_t>& shape) {
     std::string s = "(";
-    for (std::size_t i = 0; i < shape.size(); ++i) s += (i ? ", " : "") + (shape[i] < 0 ? std::string("N") : std::to_string(shape[i]));
+    for (std::size_t i = 0; i < shape.size(); ++i)
+        s += (i ? ", " : "") + (shape[i] < 0 ? std::string("N") : std::to_string(shape[i]));
     return s + ")";
 }
 
 template <class T>
-std::vector<T> array_of(const py::object& object, const std::vector<py::ssize_t>& shape, const std::string& what, const char* type) {
+std::vector<T> array_of(const py::object& object, const std::vector<py::ssize_t>& shape, const std::string& what,
+                        const char* type) {
     if (object.is_none()) return {};
     if (!py::isinstance<py::array>(object)) throw scene::SceneError(what + ": a numpy array is wanted");
     const auto array = py::reinterpret_borrow<py::array>(object);
     std::vector<py::ssize_t> given(array.shape(), array.shape() + array.ndim());
     bool fits = given.size() == shape.size();
     for (std::size_t i = 0; fits && i < shape.size(); ++i) fits = shape[i] < 0 || shape[i] == given[i];
-    if (!fits) throw scene::SceneError(what + ": shape " + shape_text(given) + " where " + shape_text(shape) + " is wanted");
+    if (!fits)
+        throw scene::SceneError(what + ": shape " + shape_text(given) + " where " + shape_text(shape) + " is wanted");
     const bool is_unsigned = sizeof(T) == 4 && std::is_integral_v<T> && array.dtype().kind() == 'u';
-    const bool type_fits = array.dtype().itemsize() == sizeof(T) && (array.dtype().kind() == (std::is_integral_v<T> ? 'i' : 'f') || is_unsigned);
-    if (!type_fits) throw scene::SceneError(what + ": dtype " + py::str(array.dtype()).cast<std::string>() + " where " + type + " is wanted");
+    const bool type_fits = array.dtype().itemsize() == sizeof(T) &&
+                           (array.dtype().kind() == (std::is_integral_v<T> ? 'i' : 'f') || is_unsigned);
+    if (!type_fits)
+        throw scene::SceneError(what + ": dtype " + py::str(array.dtype()).cast<std::string>() + " where " + type +
+                                " is wanted");
     if (!(array.flags() & py::array::c_style)) throw scene::SceneError(what + ": the array must be C-contiguous");
     std::vector<T> out(static_cast<std::size_t>(array.size()));
     if (!out.empty()) std::memcpy(out.data(), array.data(), out.size() * sizeof(T));
@@ -94,11 +100,13 @@ py::object from_json(const json& j) {
     }
 }
 
-std::vector<float> float_array(const py::object& array, const std::vector<py::ssize_t>& shape, const std::string& what) {
+std::vector<float> float_array(const py::object& array, const std::vector<py::ssize_t>& shape,
+                               const std::string& what) {
     return array_of<float>(array, shape, what, "float32");
 }
 
-std::vector<std::int32_t> int_array(const py::object& array, const std::vector<py::ssize_t>& shape, const std::string& what) {
+std::vector<std::int32_t> int_array(const py::object& array, const std::vector<py::ssize_t>& shape,
+                                    const std::string& what) {
     return array_of<std::int32_t>(array, shape, what, "int32 or uint32");
 }
 

@@ -4,9 +4,9 @@
 
 #include "scene/scene_desc.h"
 
-#include <nlohmann/json.hpp>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -21,6 +21,7 @@ py::object from_json(const nlohmann::json& json);
 
 /// An array of exactly this type and shape (-1: any length); Error names `what` otherwise. Empty vector for None.
 std::vector<float> float_array(const py::object& array, const std::vector<py::ssize_t>& shape, const std::string& what);
-std::vector<std::int32_t> int_array(const py::object& array, const std::vector<py::ssize_t>& shape, const std::string& what);
+std::vector<std::int32_t> int_array(const py::object& array, const std::vector<py::ssize_t>& shape,
+                                    const std::string& what);
 
 }  // namespace cardioid::python

@@ -19,7 +19,7 @@ public:
     }
 
     static constexpr int k_rings = 24, k_sectors = 24;
-    static constexpr std::size_t k_cells = k_rings * k_sectors + 1;   ///< the last one: outside of the cap, or no sample
+    static constexpr std::size_t k_cells = k_rings * k_sectors + 1;  ///< the last one: outside of the cap, or no sample
 
     std::size_t cell_of(Float3 d) const {
         // |d - axis|² / 2 = 1 - cos without cancellation.
@@ -61,7 +61,8 @@ public:
         const double rise = v * height_, sine = std::sqrt(std::max(0.0, rise * (2 - rise))), phi = 2 * k_pi_d * u;
         const double a = sine * std::cos(phi), b = sine * std::sin(phi), c = 1 - rise;
         const auto mix = [&](float s, float t, float n) {
-            return static_cast<float>(a * static_cast<double>(s) + b * static_cast<double>(t) + c * static_cast<double>(n));
+            return static_cast<float>(a * static_cast<double>(s) + b * static_cast<double>(t) +
+                                      c * static_cast<double>(n));
         };
         return {mix(s_.x, t_.x, axis_.x), mix(s_.y, t_.y, axis_.y), mix(s_.z, t_.z, axis_.z)};
     }

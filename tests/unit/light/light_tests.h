@@ -16,7 +16,7 @@
 
 namespace cardioid::light_tests {
 
-using namespace CD_ISA_NS;   // NOLINT(google-build-using-namespace): the width under test
+using namespace CD_ISA_NS;  // NOLINT(google-build-using-namespace): the width under test
 using light::LampInput;
 using light::LightTable;
 

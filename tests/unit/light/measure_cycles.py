@@ -59,7 +59,11 @@ def lamps(is_new):
         return LAMPS
     free = ("point_0", "point_05", "spot_0", "spot_03", "sun_05", "sun_57", "square", "disk", "ellipse")
     more = [dict(lamp, name=lamp["name"] + "_free", normalize=False) for lamp in LAMPS if lamp["name"] in free]
-    hard = [dict(lamp, name=lamp["name"] + "_hard", soft=False) for lamp in LAMPS + more if lamp["name"][:8] in ("point_05", "spot_03", "spot_03_")]
+    hard = [
+        dict(lamp, name=lamp["name"] + "_hard", soft=False)
+        for lamp in LAMPS + more
+        if lamp["name"][:8] in ("point_05", "spot_03", "spot_03_")
+    ]
     return LAMPS + more + hard
 
 
@@ -108,7 +112,12 @@ def make_lamp(bpy, scene, lamp):
     if lamp["kind"] == "sun":
         data.angle = lamp["angle"]
     if lamp["kind"] == "area":
-        data.shape, data.size, data.size_y, data.spread = lamp["shape"].upper(), lamp["size_x"], lamp["size_y"], lamp["spread"]
+        data.shape, data.size, data.size_y, data.spread = (
+            lamp["shape"].upper(),
+            lamp["size_x"],
+            lamp["size_y"],
+            lamp["spread"],
+        )
     if "normalize" in lamp:
         data.normalize = lamp["normalize"]
     placed = bpy.data.objects.new("lamp", data)
@@ -144,7 +153,16 @@ def measure(path):
         matrix = [placed.matrix_world[r][c] for r in range(3) for c in range(4)]
         soft = getattr(placed.data, "use_soft_falloff", False) and lamp["kind"] in ("point", "spot")
         values = [irradiance(bpy, scene, x, y) for x, y in POINTS]
-        rows.append(dict(lamp, version=bpy.app.version_string, legacy=bpy.app.version < (4, 0), soft=soft, matrix=matrix, values=values))
+        rows.append(
+            dict(
+                lamp,
+                version=bpy.app.version_string,
+                legacy=bpy.app.version < (4, 0),
+                soft=soft,
+                matrix=matrix,
+                values=values,
+            )
+        )
         bpy.data.objects.remove(placed)
         print(lamp["name"], values, flush=True)
     with open(path, "w") as file:
@@ -161,19 +179,29 @@ def header(paths):
     print("// Irradiance of lamps on a plane as Cycles renders it; written by measure_cycles.py.")
     print("#pragma once\n\nnamespace cardioid::light_tests {\n")
     print("struct Measured {\n    const char *name, *version, *kind, *shape;\n    bool legacy, soft, normalize;")
-    print("    float energy, radius, angle, blend, size_x, size_y, spread;\n    float matrix[12];\n    float irradiance[4];\n};\n")
-    print("inline constexpr float k_measured_points[4][2] = {" + ", ".join("{%s, %s}" % (literal(x), literal(y)) for x, y in POINTS) + "};\n")
+    print(
+        "    float energy, radius, angle, blend, size_x, size_y, spread;\n    float matrix[12];\n    float irradiance[4];\n};\n"  # noqa: E501
+    )
+    print(
+        "inline constexpr float k_measured_points[4][2] = {"
+        + ", ".join(f"{{{literal(x)}, {literal(y)}}}" for x, y in POINTS)
+        + "};\n"
+    )
     print("inline constexpr Measured k_measured[] = {")
     for path in paths:
         with open(path) as file:
             rows = json.load(file)
         for row in rows:
-            flags = ", ".join("true" if flag else "false" for flag in (row["legacy"], row["soft"], row.get("normalize", True)))
+            flags = ", ".join(
+                "true" if flag else "false" for flag in (row["legacy"], row["soft"], row.get("normalize", True))
+            )
             fields = ("energy", "radius", "angle", "blend", "size_x", "size_y", "spread")
             numbers = ", ".join(literal(row.get(key, 0)) for key in fields)
-            print('    {"%s", "%s", "%s", "%s", %s,' % (row["name"], row["version"], row["kind"], row.get("shape", ""), flags))
-            print("     %s,\n     {%s}," % (numbers, ", ".join(literal(v) for v in row["matrix"])))
-            print("     {%s}}," % ", ".join(literal(v) for v in row["values"]))
+            print(
+                '    {{"{}", "{}", "{}", "{}", {},'.format(row["name"], row["version"], row["kind"], row.get("shape", ""), flags)  # noqa: E501
+            )
+            print("     {},\n     {{{}}},".format(numbers, ", ".join(literal(v) for v in row["matrix"])))
+            print("     {{{}}}}},".format(", ".join(literal(v) for v in row["values"])))
     print("};\n\n}  // namespace cardioid::light_tests")
 
 

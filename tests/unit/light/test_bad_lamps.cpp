@@ -14,7 +14,8 @@ void expect_sane(const LightTable& table, const Receiver& at) {
     for (int k = 0; k < 512; k += W) {
         const Vec3 u = uniform.lanes();
         const LightSample s = sample_light(table.data(), at.lanes(), u, mask_of(true));
-        for (const Float& f : {s.wi.x, s.wi.y, s.wi.z, s.radiance.r, s.radiance.g, s.radiance.b, s.pdf, s.distance, s.position.x, s.position.z}) {
+        for (const Float& f : {s.wi.x, s.wi.y, s.wi.z, s.radiance.r, s.radiance.g, s.radiance.b, s.pdf, s.distance,
+                               s.position.x, s.position.z}) {
             EXPECT_TRUE(none(s.valid & ~is_finite(f)));
         }
         EXPECT_TRUE(none(s.valid & (abs(length_squared(s.wi) - 1.0f) > Float(1e-4f))));
@@ -27,11 +28,15 @@ void expect_sane(const LightTable& table, const Receiver& at) {
     }
 }
 
-const std::vector<Receiver> k_receivers = {{{0, 0, 0}, {0, 0, 1}}, {{0.3f, -0.2f, 2}, {0, 0, 1}}, {{0, 0, 1e6f}, {0, 0, -1}}, {{0.3f, -0.2f, 1.999999f}, {0, 0, 0}}};
+const std::vector<Receiver> k_receivers = {{{0, 0, 0}, {0, 0, 1}},
+                                           {{0.3f, -0.2f, 2}, {0, 0, 1}},
+                                           {{0, 0, 1e6f}, {0, 0, -1}},
+                                           {{0.3f, -0.2f, 1.999999f}, {0, 0, 0}}};
 
 TEST(BadLamps, AreIgnored) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-    for (const scene::LightKind kind : {scene::LightKind::point, scene::LightKind::spot, scene::LightKind::sun, scene::LightKind::area}) {
+    for (const scene::LightKind kind :
+         {scene::LightKind::point, scene::LightKind::spot, scene::LightKind::sun, scene::LightKind::area}) {
         std::vector<LampInput> broken(7, lamp_case("", kind, 10).lamp);
         broken[0].desc.energy = 0;
         broken[1].desc.energy = nan;
@@ -62,7 +67,8 @@ TEST(BadLamps, ExtremesStayFinite) {
                 changed.lamp.desc.size_x *= size;
                 changed.lamp.desc.size_y *= size;
                 changed.lamp.desc.angle *= size;
-                for (const int i : {0, 1, 2, 4, 5, 6, 8, 9, 10}) changed.lamp.desc.transform.m[static_cast<std::size_t>(i)] *= scale;
+                for (const int i : {0, 1, 2, 4, 5, 6, 8, 9, 10})
+                    changed.lamp.desc.transform.m[static_cast<std::size_t>(i)] *= scale;
                 const LightTable table = table_of({changed.lamp});
                 SCOPED_TRACE(c.name + " size " + std::to_string(size) + " scale " + std::to_string(scale));
                 for (const Receiver& at : k_receivers) expect_sane(table, at);
@@ -114,12 +120,14 @@ TEST(LampHits, VisibilityAndMis) {
     Case c = lamp_case("", scene::LightKind::area, 10);
     c.lamp.desc.visibility = scene::visible_all;
     const Vec3 up{0.0f, 0.0f, 1.0f};
-    const LampHit seen = intersect_lamp(table_of({c.lamp}).data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1e30f, mask_of(true));
+    const LampHit seen = intersect_lamp(table_of({c.lamp}).data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up,
+                                        1e30f, mask_of(true));
     EXPECT_TRUE(all(seen.hit));
     EXPECT_EQ(seen.visibility, scene::visible_all);
     EXPECT_GT(seen.pdf[0], 0);
     c.lamp.desc.use_mis = false;
-    const LampHit camera_only = intersect_lamp(table_of({c.lamp}).data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1e30f, mask_of(true));
+    const LampHit camera_only = intersect_lamp(table_of({c.lamp}).data(), 0,
+                                               Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1e30f, mask_of(true));
     EXPECT_EQ(camera_only.visibility, scene::visible_camera);
     EXPECT_EQ(camera_only.pdf[0], 0);
     // Rays never find such a lamp, so its samples must not be weighed against rays.
@@ -132,8 +140,11 @@ TEST(LampHits, VisibilityAndMis) {
     for_each_draw(table_of({c.lamp}), Receiver{}, 16, 1, [&](const Draw& d) { EXPECT_FALSE(d.delta); });
     const LightTable table = table_of({c.lamp});
     const Vec3 down{0.0f, 0.0f, -1.0f};
-    EXPECT_TRUE(none(intersect_lamp(table.data(), 0, Receiver{{0.3f, -0.2f, 5}, {0, 0, 0}}.lanes(), down, 1e30f, mask_of(true)).hit));
-    EXPECT_TRUE(none(intersect_lamp(table.data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1.5f, mask_of(true)).hit));
+    EXPECT_TRUE(
+        none(intersect_lamp(table.data(), 0, Receiver{{0.3f, -0.2f, 5}, {0, 0, 0}}.lanes(), down, 1e30f, mask_of(true))
+                 .hit));
+    EXPECT_TRUE(none(
+        intersect_lamp(table.data(), 0, Receiver{{0.3f, -0.2f, 0}, {0, 0, 1}}.lanes(), up, 1.5f, mask_of(true)).hit));
 }
 
 TEST(LampHits, SunNeedsAFreeRay) {
@@ -149,8 +160,11 @@ TEST(LampHits, WalkFindsEveryLampOfTheRay) {
     Uniform u(5);
     std::vector<LampInput> lamps;
     for (int i = 0; i < 500; ++i) {
-        Case c = lamp_case("", i % 50 == 0 ? scene::LightKind::sun : i % 2 == 0 ? scene::LightKind::point : scene::LightKind::area, 1,
-                           tilted(8 * u() - 4, 8 * u() - 4, 8 * u() - 4));
+        Case c = lamp_case("",
+                           i % 50 == 0  ? scene::LightKind::sun
+                           : i % 2 == 0 ? scene::LightKind::point
+                                        : scene::LightKind::area,
+                           1, tilted(8 * u() - 4, 8 * u() - 4, 8 * u() - 4));
         c.lamp.desc.radius = 0.3f;
         c.lamp.desc.size_x = 0.8f;
         c.lamp.desc.angle = 0.5f;

@@ -45,7 +45,8 @@ struct Fit {
 Fit fit(const LightTable& table, const DirectionGrid& grid, double scale, int sub) {
     const Receiver at{};
     const auto p = grid.probabilities(
-        [&](Vec3 d) { return pdf_environment(table.data(), at.lanes(), d, mask_of(true)) * static_cast<float>(scale); }, sub);
+        [&](Vec3 d) { return pdf_environment(table.data(), at.lanes(), d, mask_of(true)) * static_cast<float>(scale); },
+        sub);
     std::vector<double> observed(DirectionGrid::k_cells, 0.0), expected;
     for_each_draw(table, at, k_draws, 3, [&](const Draw& d) { observed[grid.cell_of(d.wi)] += d.valid ? 1 : 0; });
     for (const double x : p) expected.push_back(x * k_draws);
@@ -116,18 +117,20 @@ TEST(Environment, EnergyIsExact) {
         constexpr int k_steps = 1500;
         for (int a = 0; a < k_steps; ++a) {
             for (int b = 0; b < k_steps; ++b) {
-                const double z = (a + 0.5) / k_steps * 2 - 1, phi = 2 * k_pi_d * (b + 0.5) / k_steps, r = std::sqrt(1 - z * z);
-                const double cosine = r * std::cos(phi) * static_cast<double>(at.n.x) + r * std::sin(phi) * static_cast<double>(at.n.y) + z * static_cast<double>(at.n.z);
+                const double z = (a + 0.5) / k_steps * 2 - 1, phi = 2 * k_pi_d * (b + 0.5) / k_steps,
+                             r = std::sqrt(1 - z * z);
+                const double cosine = r * std::cos(phi) * static_cast<double>(at.n.x) +
+                                      r * std::sin(phi) * static_cast<double>(at.n.y) + z * static_cast<double>(at.n.z);
                 expected += (0.2 + std::max(0.0, z)) * std::max(0.0, cosine);
             }
         }
         expected *= 4 * k_pi_d / (k_steps * static_cast<double>(k_steps));
-        const double disk = 2 * k_pi_d * (1 - static_cast<double>(sky.cos_sun)), above = 0.2 + static_cast<double>(sky.sun.z);
+        const double disk = 2 * k_pi_d * (1 - static_cast<double>(sky.cos_sun)),
+                     above = 0.2 + static_cast<double>(sky.sun.z);
         expected += disk * (static_cast<double>(sky.sun_radiance) - above) * static_cast<double>(dot(sky.sun, at.n));
-        EXPECT_FALSE(statistics::t_test(m, expected, 2e-3 * expected).rejected(k_level)) << resolution << " " << m.mean << " " << expected;
-        if (resolution >= 256) {
-            EXPECT_TRUE(statistics::t_test(wrong, expected, 2e-3 * expected).rejected(k_level));
-        }
+        EXPECT_FALSE(statistics::t_test(m, expected, 2e-3 * expected).rejected(k_level))
+            << resolution << " " << m.mean << " " << expected;
+        if (resolution >= 256) { EXPECT_TRUE(statistics::t_test(wrong, expected, 2e-3 * expected).rejected(k_level)); }
     }
 }
 
@@ -136,7 +139,8 @@ TEST(Environment, SunDrawsMostSamples) {
     const Sky sky;
     const LightTable table = table_of_world(world_of(sky, 1024));
     int sun = 0;
-    for_each_draw(table, Receiver{}, k_draws, 5, [&](const Draw& d) { sun += dot(d.wi, sky.sun) > sky.cos_sun ? 1 : 0; });
+    for_each_draw(table, Receiver{}, k_draws, 5,
+                  [&](const Draw& d) { sun += dot(d.wi, sky.sun) > sky.cos_sun ? 1 : 0; });
     const double disk = 2 * k_pi_d * (1 - static_cast<double>(sky.cos_sun)) * 20'000, rest = 4 * k_pi_d * 0.45;
     EXPECT_GT(static_cast<double>(sun) / k_draws, 0.6 * disk / (disk + rest));
 }

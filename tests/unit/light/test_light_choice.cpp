@@ -17,7 +17,10 @@ std::vector<LampInput> scattered_lamps(int n, std::uint32_t seed, float extent) 
     std::vector<LampInput> lamps;
     const auto at = [&] { return (u() - 0.5f) * extent; };
     for (int i = 0; i < n; ++i) {
-        Case c = lamp_case("", i % 3 == 0 ? scene::LightKind::area : i % 3 == 1 ? scene::LightKind::point : scene::LightKind::spot,
+        Case c = lamp_case("",
+                           i % 3 == 0   ? scene::LightKind::area
+                           : i % 3 == 1 ? scene::LightKind::point
+                                        : scene::LightKind::spot,
                            10 + 90 * u(), tilted(at(), at(), 1 + 3 * u()));
         c.lamp.desc.radius = i % 2 == 0 ? 0.05f : 0.0f;
         c.lamp.desc.size_x = 0.1f;
@@ -47,17 +50,21 @@ struct Scene {
 Scene mixed_scene(int lamps, int triangles, int suns, bool world, float extent = 8) {
     std::vector<LampInput> all = scattered_lamps(lamps, 3, extent);
     for (int i = 0; i < suns; ++i) {
-        Case c = lamp_case("", scene::LightKind::sun, 0.5f + static_cast<float>(i), tilted(static_cast<float>(i), 0, 0));
+        Case c =
+            lamp_case("", scene::LightKind::sun, 0.5f + static_cast<float>(i), tilted(static_cast<float>(i), 0, 0));
         c.lamp.desc.angle = 0.1f * static_cast<float>(i % 3);
         all.push_back(c.lamp);
     }
     light::WorldInput sky;
     sky.color = {0.2f, 0.3f, 0.4f};
-    return {std::to_string(lamps) + "_" + std::to_string(triangles) + "_" + std::to_string(suns) + (world ? "_world" : ""),
-            LightTable(all, scattered_triangles(triangles, 9), world ? &sky : nullptr, {-8, -8, -8}, {8, 8, 8})};
+    return {
+        std::to_string(lamps) + "_" + std::to_string(triangles) + "_" + std::to_string(suns) + (world ? "_world" : ""),
+        LightTable(all, scattered_triangles(triangles, 9), world ? &sky : nullptr, {-8, -8, -8}, {8, 8, 8})};
 }
 
-int emitters(const LightTable& table) { return table.data().lamp_count + table.data().triangle_count + (table.data().environment.emitter >= 0 ? 1 : 0); }
+int emitters(const LightTable& table) {
+    return table.data().lamp_count + table.data().triangle_count + (table.data().environment.emitter >= 0 ? 1 : 0);
+}
 
 std::vector<double> probabilities(const LightTable& table, const Receiver& at) {
     std::vector<double> p;
@@ -88,8 +95,13 @@ std::vector<Receiver> receivers() {
 }
 
 TEST(Choice, ProbabilitiesAreThoseOfPicks) {
-    for (const auto& [lamps, triangles, suns, world] :
-         {std::tuple{1, 0, 0, false}, {2, 0, 0, false}, {6, 0, 1, true}, {40, 0, 0, false}, {30, 200, 2, true}, {0, 300, 7, true}, {0, 1, 9, false}}) {
+    for (const auto& [lamps, triangles, suns, world] : {std::tuple{1, 0, 0, false},
+                                                        {2, 0, 0, false},
+                                                        {6, 0, 1, true},
+                                                        {40, 0, 0, false},
+                                                        {30, 200, 2, true},
+                                                        {0, 300, 7, true},
+                                                        {0, 1, 9, false}}) {
         const Scene s = mixed_scene(lamps, triangles, suns, world);
         for (const Receiver& at : receivers()) {
             const std::vector<double> p = probabilities(s.table, at);
@@ -115,7 +127,8 @@ TEST(Choice, ProbabilitiesAreThoseOfPicks) {
             if (possible < 3) continue;
             const statistics::Chi2Result fit = statistics::chi2_test(observed, expected);
             EXPECT_FALSE(fit.rejected(k_level)) << s.name << " p " << fit.p;
-            EXPECT_TRUE(statistics::chi2_test(observed, wrong).rejected(k_level)) << s.name << ": a uniform choice must not pass";
+            EXPECT_TRUE(statistics::chi2_test(observed, wrong).rejected(k_level))
+                << s.name << ": a uniform choice must not pass";
         }
     }
 }
@@ -148,7 +161,8 @@ TEST(Choice, WholeIsSumOfParts) {
     for (const light::EmissiveTriangle& t : triangles) parts.push_back(LightTable({}, {t}, nullptr, {}, {}));
     parts.push_back(LightTable({}, {}, &sky, {}, {}));
     // The last receiver sees the suns cut by its horizon, and most lamps from behind.
-    for (const Receiver& at : {Receiver{{0, 0, 0}, {0, 0, 1}}, Receiver{{1, 2, 1.0f}, {0, 0.6f, 0.8f}}, receivers()[1]}) {
+    for (const Receiver& at :
+         {Receiver{{0, 0, 0}, {0, 0, 1}}, Receiver{{1, 2, 1.0f}, {0, 0.6f, 0.8f}}, receivers()[1]}) {
         statistics::Moments whole;
         for_each_draw(table, at, 400'000, 29, [&](const Draw& d) { whole.add(irradiance_of(d, at)); });
         double sum = 0, variance = 0;
@@ -184,7 +198,8 @@ TEST(Choice, TrianglePdfMatchesDraws) {
         for (int k = 0; k < 20'000; k += W) {
             const LightSample s = sample_light(table.data(), at.lanes(), uniform.lanes(), mask_of(true));
             const Mask on_triangle = s.valid & (s.triangle >= Int(0));
-            const Float pdf = pdf_triangle(table.data(), at.lanes(), s.instance, s.triangle, s.position, s.normal, on_triangle);
+            const Float pdf =
+                pdf_triangle(table.data(), at.lanes(), s.instance, s.triangle, s.position, s.normal, on_triangle);
             for (int i = 0; i < W; ++i) {
                 if (((bits(on_triangle) >> i) & 1) == 0) continue;
                 EXPECT_NEAR(pdf[i] / s.pdf[i], 1, 1e-3f);
@@ -210,10 +225,11 @@ TEST(Choice, TrianglePdfIsFrequency) {
         double sum = 0;
         for (int a = 0; a < k_steps; ++a) {
             for (int b = 0; b < k_steps; ++b) {
-                const float root = std::sqrt((static_cast<float>(a) + 0.5f) / k_steps), v = (static_cast<float>(b) + 0.5f) / k_steps;
+                const float root = std::sqrt((static_cast<float>(a) + 0.5f) / k_steps),
+                            v = (static_cast<float>(b) + 0.5f) / k_steps;
                 const Float3 hit = t.p0 + (t.p1 - t.p0) * (root * (1 - v)) + (t.p2 - t.p0) * (root * v);
-                const Float pdf = pdf_triangle(table.data(), at.lanes(), Int(t.instance), Int(t.triangle), {hit.x, hit.y, hit.z},
-                                               {n.x, n.y, n.z}, mask_of(true));
+                const Float pdf = pdf_triangle(table.data(), at.lanes(), Int(t.instance), Int(t.triangle),
+                                               {hit.x, hit.y, hit.z}, {n.x, n.y, n.z}, mask_of(true));
                 const Float3 to = hit - at.p;
                 const double d2 = static_cast<double>(dot(to, to));
                 sum += static_cast<double>(pdf[0]) * std::fabs(static_cast<double>(dot(n, normalize(to)))) / d2;
@@ -227,14 +243,16 @@ TEST(Choice, TrianglePdfIsFrequency) {
         if (dark) observed[expected.size() - 1] = 0;
     }
     EXPECT_FALSE(statistics::chi2_test(observed, expected).rejected(k_level));
-    EXPECT_TRUE(statistics::chi2_test(observed, mutant).rejected(k_level)) << "half the density on two-sided triangles must not pass";
+    EXPECT_TRUE(statistics::chi2_test(observed, mutant).rejected(k_level))
+        << "half the density on two-sided triangles must not pass";
 }
 
 TEST(Choice, UnknownTrianglesHaveNoDensity) {
     const LightTable table({}, scattered_triangles(8, 13), nullptr, {}, {});
     const Receiver at{};
     for (const auto& [instance, triangle] : {std::pair{-1, 0}, {99, 0}, {0, -1}, {0, 1}, {0, 10'000}}) {
-        const Float pdf = pdf_triangle(table.data(), at.lanes(), Int(instance), Int(triangle), {0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 1.0f}, mask_of(true));
+        const Float pdf = pdf_triangle(table.data(), at.lanes(), Int(instance), Int(triangle), {0.0f, 0.0f, 1.0f},
+                                       {0.0f, 0.0f, 1.0f}, mask_of(true));
         EXPECT_EQ(pdf[0], 0.0f) << instance << " " << triangle;
     }
 }

@@ -52,7 +52,8 @@ statistics::TResult estimate(const LightTable& table, const Receiver& at, double
 
 void expect_irradiance(const LightTable& table, const Receiver& at, double expected) {
     const statistics::TResult good = estimate(table, at, expected);
-    EXPECT_FALSE(good.rejected(k_level)) << "difference " << good.difference << " of " << expected << " ± " << good.error;
+    EXPECT_FALSE(good.rejected(k_level)) << "difference " << good.difference << " of " << expected << " ± "
+                                         << good.error;
     EXPECT_TRUE(good.equivalent(0.02 * std::fabs(expected), 0.05)) << "too noisy to say anything";
     EXPECT_TRUE(estimate(table, at, expected, Fault::density).rejected(k_level));
     EXPECT_TRUE(estimate(table, at, expected, Fault::distance).rejected(k_level));
@@ -74,7 +75,8 @@ TEST(Irradiance, Sphere) {
     const Double3 to = minus({0.2, 0.5, 2}, to_double(k_receiver.p));
     const double d2 = dot_of(to, to);
     // E / (4 pi) is the intensity of the sphere: radiance times pi r².
-    expect_irradiance(table_of({c.lamp}), k_receiver, 100 / (4 * k_pi_d) * dot_of(unit(to), to_double(k_receiver.n)) / d2);
+    expect_irradiance(table_of({c.lamp}), k_receiver,
+                      100 / (4 * k_pi_d) * dot_of(unit(to), to_double(k_receiver.n)) / d2);
 }
 
 TEST(Irradiance, FacingDisk) {
@@ -83,25 +85,29 @@ TEST(Irradiance, FacingDisk) {
     c.lamp.desc.legacy_lamp = true;
     const Double3 to = minus({0.2, 0.5, 2}, to_double(k_receiver.p));
     const double d2 = dot_of(to, to), radiance = 100 / (4 * k_pi_d * k_pi_d * 0.16);
-    expect_irradiance(table_of({c.lamp}), k_receiver, k_pi_d * radiance * 0.16 / (0.16 + d2) * dot_of(unit(to), to_double(k_receiver.n)));
+    expect_irradiance(table_of({c.lamp}), k_receiver,
+                      k_pi_d * radiance * 0.16 / (0.16 + d2) * dot_of(unit(to), to_double(k_receiver.n)));
 }
 
 TEST(Irradiance, PointWithoutRadius) {
     Case c = lamp_case("", scene::LightKind::point, 100, placed({0.2f, 0.5f, 2}));
     const Double3 to = minus({0.2, 0.5, 2}, to_double(k_receiver.p));
     const double d2 = dot_of(to, to);
-    expect_irradiance(table_of({c.lamp}), k_receiver, 100 / (4 * k_pi_d) * dot_of(unit(to), to_double(k_receiver.n)) / d2);
+    expect_irradiance(table_of({c.lamp}), k_receiver,
+                      100 / (4 * k_pi_d) * dot_of(unit(to), to_double(k_receiver.n)) / d2);
 }
 
 std::vector<Float3> square_corners(float half, Float3 center) {
-    return {center + Float3{-half, -half, 0}, center + Float3{half, -half, 0}, center + Float3{half, half, 0}, center + Float3{-half, half, 0}};
+    return {center + Float3{-half, -half, 0}, center + Float3{half, -half, 0}, center + Float3{half, half, 0},
+            center + Float3{-half, half, 0}};
 }
 
 TEST(Irradiance, Square) {
     for (const float size : {0.05f, 0.5f, 4.0f}) {
         Case c = lamp_case("", scene::LightKind::area, 50, placed({0.6f, 0.9f, 3}));
         c.lamp.desc.size_x = size;
-        const double form = polygon_irradiance(square_corners(size / 2, {0.6f, 0.9f, 3}), k_receiver), area = static_cast<double>(size * size);
+        const double form = polygon_irradiance(square_corners(size / 2, {0.6f, 0.9f, 3}), k_receiver),
+                     area = static_cast<double>(size * size);
         expect_irradiance(table_of({c.lamp}), k_receiver, 50 / (k_pi_d * area) * form);
         c.lamp.desc.legacy_lamp = true;
         expect_irradiance(table_of({c.lamp}), k_receiver, 50 / (4 * area) * form);
@@ -141,15 +147,17 @@ TEST(Irradiance, EllipseAndSpread) {
         scene::AreaShape shape;
         float x, y, spread;
     };
-    for (const Form f : {Form{scene::AreaShape::ellipse, 1.5f, 0.5f, 3.14159265f}, Form{scene::AreaShape::rectangle, 1.5f, 0.9f, 1.5f},
-                         Form{scene::AreaShape::ellipse, 1.8f, 1.2f, 1.2f}, Form{scene::AreaShape::disk, 3.0f, 3.0f, 0.8f}}) {
+    for (const Form f :
+         {Form{scene::AreaShape::ellipse, 1.5f, 0.5f, 3.14159265f}, Form{scene::AreaShape::rectangle, 1.5f, 0.9f, 1.5f},
+          Form{scene::AreaShape::ellipse, 1.8f, 1.2f, 1.2f}, Form{scene::AreaShape::disk, 3.0f, 3.0f, 0.8f}}) {
         Case c = lamp_case("", scene::LightKind::area, 50, placed(center));
         c.lamp.desc.shape = f.shape;
         c.lamp.desc.size_x = f.x;
         c.lamp.desc.size_y = f.y;
         c.lamp.desc.spread = f.spread;
         const bool round = f.shape != scene::AreaShape::rectangle;
-        const double a = static_cast<double>(f.x) / 2, b = static_cast<double>(f.y) / 2, half = static_cast<double>(f.spread) / 2;
+        const double a = static_cast<double>(f.x) / 2, b = static_cast<double>(f.y) / 2,
+                     half = static_cast<double>(f.spread) / 2;
         const double radiance = 50 / (k_pi_d * (round ? k_pi_d : 4.0) * a * b);
         const bool open = half > 1.57;
         const auto value = [&](double cosine) {
@@ -187,12 +195,15 @@ TEST(Irradiance, Sun) {
         c.lamp.desc.angle = angle;
         const Float3 toward = normalize(tilted().column(2));
         const double half = static_cast<double>(angle) / 2, sine = std::sin(half), slope = std::tan(half);
-        const double even = cone_irradiance(toward, half, k_receiver, [&](double) { return 3 / (k_pi_d * sine * sine); });
+        const double even =
+            cone_irradiance(toward, half, k_receiver, [&](double) { return 3 / (k_pi_d * sine * sine); });
         const LightTable table = table_of({c.lamp});
         EXPECT_FALSE(estimate(table, k_receiver, even).rejected(k_level));
         EXPECT_TRUE(estimate(table, k_receiver, even, Fault::density).rejected(k_level));
         c.lamp.desc.legacy_lamp = true;
-        const double flat = cone_irradiance(toward, half, k_receiver, [&](double cosine) { return 3 / (k_pi_d * slope * slope * cosine * cosine * cosine); });
+        const double flat = cone_irradiance(toward, half, k_receiver, [&](double cosine) {
+            return 3 / (k_pi_d * slope * slope * cosine * cosine * cosine);
+        });
         EXPECT_FALSE(estimate(table_of({c.lamp}), k_receiver, flat).rejected(k_level));
     }
 }
@@ -201,7 +212,8 @@ TEST(Irradiance, SunWithoutAngle) {
     Case c = lamp_case("", scene::LightKind::sun, 3);
     c.lamp.desc.angle = 0;
     const Float3 toward = normalize(tilted().column(2));
-    const statistics::TResult r = estimate(table_of({c.lamp}), k_receiver, 3 * static_cast<double>(dot(toward, k_receiver.n)));
+    const statistics::TResult r =
+        estimate(table_of({c.lamp}), k_receiver, 3 * static_cast<double>(dot(toward, k_receiver.n)));
     EXPECT_FALSE(r.rejected(k_level)) << r.difference;
 }
 
@@ -217,7 +229,8 @@ TEST(Irradiance, SpotFallsOff) {
             const Receiver at{{static_cast<float>(2 * std::tan(angle)), 0, 0}, {0, 0, 1}};
             const double t = std::clamp((std::cos(angle) - std::cos(half)) / width, 0.0, 1.0);
             const double d2 = 4 / (std::cos(angle) * std::cos(angle));
-            const double expected = 100 / (4 * k_pi_d) * t * t * (3 - 2 * t) * std::cos(angle) / d2 * (legacy ? std::cos(angle) : 1);
+            const double expected =
+                100 / (4 * k_pi_d) * t * t * (3 - 2 * t) * std::cos(angle) / d2 * (legacy ? std::cos(angle) : 1);
             statistics::Moments m;
             for_each_draw(table_of({c.lamp}), at, 64, 1, [&](const Draw& d) { m.add(irradiance_of(d, at)); });
             EXPECT_NEAR(m.mean, expected, 2e-4 * expected + 1e-6) << angle << " " << legacy;
@@ -233,7 +246,8 @@ TEST(Irradiance, UniformWorld) {
     // Without a side the whole sphere is sampled; what the receiver makes of it is its own business.
     const Receiver all{k_receiver.p, {0, 0, 0}};
     statistics::Moments sphere;
-    for_each_draw(table, all, k_draws, 5, [&](const Draw& d) { sphere.add(static_cast<double>(d.radiance.x / d.pdf)); });
+    for_each_draw(table, all, k_draws, 5,
+                  [&](const Draw& d) { sphere.add(static_cast<double>(d.radiance.x / d.pdf)); });
     EXPECT_FALSE(statistics::t_test(sphere, 4 * k_pi_d * 0.7, 1e-5).rejected(k_level));
 }
 

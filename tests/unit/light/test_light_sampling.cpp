@@ -17,7 +17,8 @@ struct Fit {
 
 /// chi² of draws against `scale` times the density of hits.
 Fit fit(const LightTable& table, const Receiver& at, const DirectionGrid& grid, double scale) {
-    const auto p = grid.probabilities([&](Vec3 d) { return density(table, at.lanes(), d) * static_cast<float>(scale); }, 32);
+    const auto p =
+        grid.probabilities([&](Vec3 d) { return density(table, at.lanes(), d) * static_cast<float>(scale); }, 32);
     std::vector<double> observed(DirectionGrid::k_cells, 0.0), expected(DirectionGrid::k_cells);
     double invalid = 0;
     for_each_draw(table, at, k_draws, 7, [&](const Draw& d) {
@@ -53,10 +54,12 @@ class LampSampling : public testing::TestWithParam<Case> {};
 
 TEST_P(LampSampling, FitsDensity) {
     const LightTable table = table_of({GetParam().lamp});
-    for (const Receiver& at : {Receiver{}, Receiver{{0.7f, 0.3f, 0.4f}, normalize(Float3{-0.3f, 0.1f, 1})}, Receiver{{0.2f, 0, 0.9f}, {0, 0, 0}}}) {
+    for (const Receiver& at : {Receiver{}, Receiver{{0.7f, 0.3f, 0.4f}, normalize(Float3{-0.3f, 0.1f, 1})},
+                               Receiver{{0.2f, 0, 0.9f}, {0, 0, 0}}}) {
         const DirectionGrid grid = grid_around(table, at);
         const Fit good = fit(table, at, grid, 1);
-        EXPECT_FALSE(good.chi2.rejected(k_level)) << "p " << good.chi2.p << " statistic " << good.chi2.statistic << "/" << good.chi2.degrees;
+        EXPECT_FALSE(good.chi2.rejected(k_level))
+            << "p " << good.chi2.p << " statistic " << good.chi2.statistic << "/" << good.chi2.degrees;
         EXPECT_TRUE(fit(table, at, grid, 1.05).chi2.rejected(k_level)) << "density 5 % too large must not pass";
     }
 }
@@ -89,7 +92,7 @@ TEST_P(LampSampling, DrawHasDensityOfHit) {
             if (((bits(s.valid) >> i) & 1) == 0) continue;
             ++compared;
             if (((bits(h.hit) >> i) & 1) == 0) {
-                ++missed;   // on the very edge rounding decides
+                ++missed;  // on the very edge rounding decides
                 continue;
             }
             EXPECT_NEAR(h.pdf[i] / s.pdf[i], 1, 2e-2f);

@@ -18,7 +18,9 @@ Affine random_affine(std::mt19937& random, float size) {
 float distance(Float3 a, Float3 b) { return length(a - b); }
 
 /// Error of inverse(a) as a map, relative to the reach of the point.
-float round_trip(const Affine& a, const Affine& inv, Float3 p) { return distance(inv.point(a.point(p)), p) / std::max(length(p), 1.0f); }
+float round_trip(const Affine& a, const Affine& inv, Float3 p) {
+    return distance(inv.point(a.point(p)), p) / std::max(length(p), 1.0f);
+}
 
 TEST(Affine, ProductIsComposition) {
     std::mt19937 random(1);

@@ -68,7 +68,8 @@ TEST(PathClasses, EveryStringIsInExactlyOneClass) {
     ASSERT_EQ(all.size(), 32767u);
     std::vector<int> members(k_classes, 0);
     for (const std::string& s : all) {
-        const auto count = std::count_if(patterns().begin(), patterns().end(), [&](const ClassPattern& p) { return std::regex_match(s, p.from_light); });
+        const auto count = std::count_if(patterns().begin(), patterns().end(),
+                                         [&](const ClassPattern& p) { return std::regex_match(s, p.from_light); });
         ASSERT_EQ(count, 1) << s;
         ++members[static_cast<std::size_t>(by_expression(s))];
     }
@@ -84,7 +85,8 @@ TEST(PathClasses, EveryWrongTransitionIsNoticed) {
                 const State right = step(static_cast<State>(from), specular);
                 if (to == static_cast<int>(right)) continue;
                 const Step wrong = [=](State s, bool is_specular) {
-                    return static_cast<int>(s) == from && is_specular == specular ? static_cast<State>(to) : step(s, is_specular);
+                    return static_cast<int>(s) == from && is_specular == specular ? static_cast<State>(to)
+                                                                                  : step(s, is_specular);
                 };
                 EXPECT_GT(disagreements(wrong), 0) << from << (specular ? " S " : " D ") << to;
             }

@@ -8,7 +8,7 @@
 
 namespace cardioid::simd_tests {
 
-using namespace CD_ISA_NS;   // NOLINT(google-build-using-namespace): the width under test
+using namespace CD_ISA_NS;  // NOLINT(google-build-using-namespace): the width under test
 
 /// Lane i holds f(i).
 template <class F>

@@ -20,7 +20,8 @@ double worst(F f, R reference, double from, double to, double floor_value, int n
         const Float y = f(x);
         for (int i = 0; i < W; ++i) {
             const double expected = reference(static_cast<double>(x[i]));
-            const double error = std::fabs(static_cast<double>(y[i]) - expected) / std::max(std::fabs(expected), floor_value);
+            const double error =
+                std::fabs(static_cast<double>(y[i]) - expected) / std::max(std::fabs(expected), floor_value);
             // Not `max`, which would lose a NaN.
             if (!(error <= most)) most = error;
         }
@@ -32,7 +33,8 @@ double sine_of(double x) { return std::sin(x); }
 double cosine_of(double x) { return std::cos(x); }
 
 TEST(Elementary, Exp2) {
-    EXPECT_LT(worst([](Float x) { return exp2(x); }, [](double x) { return std::exp2(x); }, -125.9, 126.9, 1e-300), 2.5e-7);
+    EXPECT_LT(worst([](Float x) { return exp2(x); }, [](double x) { return std::exp2(x); }, -125.9, 126.9, 1e-300),
+              2.5e-7);
     EXPECT_EQ(exp2(Float(-1000.0f))[0], exp2(Float(-126.0f))[0]);
     EXPECT_TRUE(std::isfinite(exp2(Float(1e30f))[0]));
     for (int k = -126; k <= 127; ++k) EXPECT_EQ(exp2(Float(static_cast<float>(k)))[0], std::ldexp(1.0f, k)) << k;
@@ -91,7 +93,8 @@ TEST(Elementary, Atan2AllAround) {
         for (int k = 0; k < 7200; ++k) {
             const double a = -3.14159 + k * 2 * 3.14159 / 7200;
             const auto y = static_cast<float>(r * std::sin(a)), x = static_cast<float>(r * std::cos(a));
-            ASSERT_NEAR(atan2(Float(y), Float(x))[0], std::atan2(static_cast<double>(y), static_cast<double>(x)), 1e-6) << r << " " << a;
+            ASSERT_NEAR(atan2(Float(y), Float(x))[0], std::atan2(static_cast<double>(y), static_cast<double>(x)), 1e-6)
+                << r << " " << a;
         }
     }
     EXPECT_EQ(atan2(Float(0.0f), Float(0.0f))[0], 0.0f);
@@ -101,7 +104,8 @@ TEST(Elementary, Atan2AllAround) {
 }
 
 TEST(Elementary, HardwareFunctionsAreExact) {
-    const std::vector<float> values{0.0f, -0.0f, 0.5f, -0.5f, 1.0f, -1.0f, 2.5f, -2.5f, 8388607.5f, -8388607.5f, 1e9f, -1e9f, 3e-39f, 1e30f};
+    const std::vector<float> values{0.0f,  -0.0f,      0.5f,        -0.5f, 1.0f,  -1.0f,  2.5f,
+                                    -2.5f, 8388607.5f, -8388607.5f, 1e9f,  -1e9f, 3e-39f, 1e30f};
     for (const float x : values) {
         EXPECT_EQ(floor(Float(x))[0], std::floor(x));
         EXPECT_EQ(ceil(Float(x))[0], std::ceil(x));
@@ -123,7 +127,8 @@ TEST(Elementary, HardwareFunctionsAreExact) {
 TEST(Elementary, TheComparisonNoticesAWrongFunction) {
     const auto cubic = [](Float x) { return x - x * x * x * (1.0f / 6.0f); };
     EXPECT_GT(worst(cubic, sine_of, -0.5, 0.5, 1), 1e-4);
-    EXPECT_FALSE(worst([](Float x) { return x * Float(std::numeric_limits<float>::quiet_NaN()); }, sine_of, 0, 1, 1) < 1e9);
+    EXPECT_FALSE(worst([](Float x) { return x * Float(std::numeric_limits<float>::quiet_NaN()); }, sine_of, 0, 1, 1) <
+                 1e9);
 }
 
 TEST(Elementary, FiniteOrNot) {

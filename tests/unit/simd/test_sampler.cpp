@@ -38,7 +38,8 @@ std::vector<Point> points(Variant v, std::uint32_t pixel_seed, int dimension, in
     std::vector<Point> all;
     for (int k = 0; k < n; k += W) {
         const Vec2 u = variant_pair(v, Int::of_bits(pixel_seed), Int(first + k) + lane_index(), Int(dimension));
-        for (int i = 0; i < W && k + i < n; ++i) all.push_back({static_cast<double>(u.x[i]), static_cast<double>(u.y[i])});
+        for (int i = 0; i < W && k + i < n; ++i)
+            all.push_back({static_cast<double>(u.x[i]), static_cast<double>(u.y[i])});
     }
     return all;
 }
@@ -48,7 +49,8 @@ bool is_net(const std::vector<Point>& p, int k) {
     for (int a = 0; a <= k; ++a) {
         std::vector<int> cells(p.size(), 0);
         for (const Point& q : p) {
-            const auto cx = static_cast<std::size_t>(q.x * (1 << a)), cy = static_cast<std::size_t>(q.y * (1 << (k - a)));
+            const auto cx = static_cast<std::size_t>(q.x * (1 << a)),
+                       cy = static_cast<std::size_t>(q.y * (1 << (k - a)));
             if (cells[(cx << (k - a)) + cy]++ != 0) return false;
         }
     }
@@ -86,7 +88,8 @@ public:
         ++n_;
     }
     statistics::Chi2Result test() const {
-        return statistics::chi2_test({count_.begin(), count_.end()}, std::vector<double>(count_.size(), n_ / static_cast<double>(count_.size())));
+        return statistics::chi2_test({count_.begin(), count_.end()},
+                                     std::vector<double>(count_.size(), n_ / static_cast<double>(count_.size())));
     }
 
 private:
@@ -103,7 +106,8 @@ int correlated_pairs(Variant v, double level) {
     for (int d = 0; d < k_pairs; ++d) {
         for (std::uint32_t pixel = 0; pixel < 4096; ++pixel) {
             const auto p = points(v, static_cast<std::uint32_t>(hash(Int::of_bits(pixel), Int(99))[0]), d, 16, 16);
-            by_dimension[static_cast<std::size_t>(d)].insert(by_dimension[static_cast<std::size_t>(d)].end(), p.begin(), p.end());
+            by_dimension[static_cast<std::size_t>(d)].insert(by_dimension[static_cast<std::size_t>(d)].end(), p.begin(),
+                                                             p.end());
         }
     }
     int rejected = 0;
@@ -154,7 +158,8 @@ TEST(Sampler, EachCoordinateIsUniformAcrossPixels) {
     for (const int sample : {0, 1, 2, 3, 63, 1024}) {
         std::vector<double> x(64, 0.0), y(64, 0.0), expected(64, 65536 / 64.0);
         for (std::uint32_t pixel = 0; pixel < 65536; ++pixel) {
-            const Point p = points(Variant::real, static_cast<std::uint32_t>(hash(Int::of_bits(pixel), Int(1))[0]), 2, sample, 1)[0];
+            const Point p = points(Variant::real, static_cast<std::uint32_t>(hash(Int::of_bits(pixel), Int(1))[0]), 2,
+                                   sample, 1)[0];
             x[static_cast<std::size_t>(p.x * 64)] += 1;
             y[static_cast<std::size_t>(p.y * 64)] += 1;
         }

@@ -23,7 +23,9 @@ Float3 corner(const GeometryPool& pool, int instance, std::uint32_t triangle, in
     return c[k];
 }
 
-void expect_near(Float3 a, Float3 b, float bound = 1e-5f) { EXPECT_LT(length(a - b), bound) << a.x << " " << a.y << " " << a.z; }
+void expect_near(Float3 a, Float3 b, float bound = 1e-5f) {
+    EXPECT_LT(length(a - b), bound) << a.x << " " << a.y << " " << a.z;
+}
 
 scene::InstanceDesc placed_group(int group, const Affine& transform) {
     scene::InstanceDesc i;
@@ -71,7 +73,8 @@ TEST(GeometryPool, OnlyAMeshThatIsPlacedOnceIsBaked) {
 TEST(GeometryPool, MirroredBakedInstancesTurnTheirNormals) {
     SceneDesc desc;
     desc.meshes = {square(), square(), square()};
-    desc.instances = {placed(0, scaled(-1, 1, 1)), placed(1, scaled(-1, -1, 1)), placed(2, scaled(-1, 1, 1)), placed(2, Affine{})};
+    desc.instances = {placed(0, scaled(-1, 1, 1)), placed(1, scaled(-1, -1, 1)), placed(2, scaled(-1, 1, 1)),
+                      placed(2, Affine{})};
     const GeometryPool pool = pool_of(desc);
     trace::SceneView view;
     pool.fill(view);
@@ -85,9 +88,12 @@ TEST(GeometryPool, MaterialsBySlot) {
     SceneDesc desc;
     desc.meshes = {square(), square()};
     desc.meshes[1].slots.clear();
-    desc.instances = {placed(0, Affine{}, {4, 7}), placed(0, Affine{}, {4}), placed(0, Affine{}), placed(0, Affine{}, {-1, 3}), placed(1, Affine{}, {6, 5})};
+    desc.instances = {placed(0, Affine{}, {4, 7}), placed(0, Affine{}, {4}), placed(0, Affine{}),
+                      placed(0, Affine{}, {-1, 3}), placed(1, Affine{}, {6, 5})};
     const GeometryPool pool = pool_of(desc);
-    const auto both = [&](int instance) { return std::vector<int>{pool.material(instance, 0), pool.material(instance, 1)}; };
+    const auto both = [&](int instance) {
+        return std::vector<int>{pool.material(instance, 0), pool.material(instance, 1)};
+    };
     EXPECT_EQ(both(0), (std::vector<int>{4, 7}));
     EXPECT_EQ(both(1), (std::vector<int>{4, 4}));
     EXPECT_EQ(both(2), (std::vector<int>{k_default, k_default}));
@@ -133,7 +139,8 @@ TEST(GeometryPool, EmptySceneStillHasTables) {
 TEST(GeometryPool, AttributesByName) {
     SceneDesc desc;
     desc.meshes = {square(), square()};
-    desc.meshes[0].attributes = {{"other", scene::Domain::face, 1, {8, 9}}, {"map", scene::Domain::corner, 2, std::vector<float>(12, 0.5f)}};
+    desc.meshes[0].attributes = {{"other", scene::Domain::face, 1, {8, 9}},
+                                 {"map", scene::Domain::corner, 2, std::vector<float>(12, 0.5f)}};
     desc.instances = {placed(0, Affine{}), placed(1, Affine{})};
     const GeometryPool pool(desc, {"map", "other", "missing"}, k_default);
     trace::SceneView view;

@@ -13,7 +13,7 @@
 namespace cardioid::trace_tests {
 namespace {
 
-using namespace CD_ISA_NS;   // NOLINT(google-build-using-namespace): the width under test
+using namespace CD_ISA_NS;  // NOLINT(google-build-using-namespace): the width under test
 
 struct D3 {
     double x, y, z;
@@ -26,12 +26,13 @@ D3 wide(Float3 p) { return {static_cast<double>(p.x), static_cast<double>(p.y), 
 struct Hit {
     double t = 1e30, u = 0, v = 0;
     int instance = -1, triangle = -1;
-    double margin = 1;   ///< how far inside its triangle, and before the next hit: small means ambiguous in float
+    double margin = 1;  ///< how far inside its triangle, and before the next hit: small means ambiguous in float
 };
 
 /// Möller & Trumbore in double.
 std::optional<Hit> hit_triangle(const Float3 (&c)[3], Float3 origin, Float3 direction) {
-    const D3 a = wide(c[0]), e1 = sub(wide(c[1]), a), e2 = sub(wide(c[2]), a), d = wide(direction), s = sub(wide(origin), a);
+    const D3 a = wide(c[0]), e1 = sub(wide(c[1]), a), e2 = sub(wide(c[2]), a), d = wide(direction),
+             s = sub(wide(origin), a);
     const D3 p = crossed(d, e2), q = crossed(s, e1);
     const double det = dotted(e1, p);
     if (std::fabs(det) < 1e-12) return {};
@@ -58,7 +59,9 @@ Hit brute_force(const trace::GeometryPool& pool, const Ray& ray) {
             Float3 c[3];
             pool.world_triangle(static_cast<int>(i), t, c);
             std::optional<Hit> h = hit_triangle(c, ray.o, ray.d);
-            if (!h || h->t < static_cast<double>(ray.t_min) || h->t > static_cast<double>(ray.t_max) || h->margin < -1e-4) continue;
+            if (!h || h->t < static_cast<double>(ray.t_min) || h->t > static_cast<double>(ray.t_max) ||
+                h->margin < -1e-4)
+                continue;
             if (h->margin < 1e-4) {
                 ambiguous = std::min(ambiguous, h->t);
                 continue;
@@ -174,11 +177,13 @@ TEST_F(Packet, LanesThatAreOffHitNothing) {
 TEST(PacketMasks, VisibilityAndKindsOfShadow) {
     scene::SceneDesc desc;
     desc.meshes = {square(), square(), square()};
-    desc.instances = {placed(0, moved(-0.5f, -0.5f, 0)), placed(1, moved(9.5f, -0.5f, 0)), placed(2, moved(19.5f, -0.5f, 0))};
+    desc.instances = {placed(0, moved(-0.5f, -0.5f, 0)), placed(1, moved(9.5f, -0.5f, 0)),
+                      placed(2, moved(19.5f, -0.5f, 0))};
     desc.instances[0].visibility = scene::visible_camera;
     desc.instances[2].visibility = scene::visible_shadow;
     const trace::GeometryPool pool(desc, {}, 0);
-    const trace::EmbreeScene embree(pool, false, [](int i) { return i == 1; }, [] { return true; });
+    const trace::EmbreeScene embree(
+        pool, false, [](int i) { return i == 1; }, [] { return true; });
     const auto sees = [&](float x, std::uint32_t mask) {
         RayLanes ray = lanes_of({Ray{{x, 0.1f, 1}, {0, 0, -1}}}, 0);
         ray.mask = Int::of_bits(mask);
@@ -197,7 +202,8 @@ TEST(PacketMasks, VisibilityAndKindsOfShadow) {
 TEST(EmbreeScene, ABuildThatIsToldToStopStops) {
     scene::SceneDesc desc = soup_scene();
     const trace::GeometryPool pool(desc, {}, 0);
-    const trace::EmbreeScene embree(pool, false, [](int) { return false; }, [] { return false; });
+    const trace::EmbreeScene embree(
+        pool, false, [](int) { return false; }, [] { return false; });
     EXPECT_TRUE(embree.cancelled());
 }
 

@@ -12,7 +12,7 @@
 namespace cardioid::trace_tests {
 namespace {
 
-using namespace CD_ISA_NS;   // NOLINT(google-build-using-namespace): the width under test
+using namespace CD_ISA_NS;  // NOLINT(google-build-using-namespace): the width under test
 
 Float3 lane(Vec3 v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
 Vec3 lanes(Float3 v) { return {v.x, v.y, v.z}; }
@@ -36,7 +36,8 @@ TEST(PackedNormals, ErrorIsUnderItsBound) {
 }
 
 TEST(PackedNormals, AxesAreExact) {
-    for (const Float3 n : {Float3{1, 0, 0}, Float3{-1, 0, 0}, Float3{0, 1, 0}, Float3{0, -1, 0}, Float3{0, 0, 1}, Float3{0, 0, -1}}) {
+    for (const Float3 n :
+         {Float3{1, 0, 0}, Float3{-1, 0, 0}, Float3{0, 1, 0}, Float3{0, -1, 0}, Float3{0, 0, 1}, Float3{0, 0, -1}}) {
         const Float3 back = normalize(lane(unpack_normal(Int::of_bits(trace::pack_normal(n))), W - 1));
         EXPECT_LT(angle(n, back), 2e-7) << n.x << " " << n.y << " " << n.z;
     }
@@ -56,14 +57,16 @@ TEST(Surface, MaterialOfEqualsThePool) {
     desc.meshes = {soup(40, 3), square(), square()};
     desc.meshes[2].slots.clear();
     for (int t = 0; t < 40; ++t) desc.meshes[0].slots.push_back(t % 5);
-    desc.instances = {placed(1, Affine{}, {3, 8}), placed(0, Affine{}, {10, 11, 12}), placed(0, Affine{}, {20, -1, 22, 23, 24}), placed(2, Affine{}, {7})};
+    desc.instances = {placed(1, Affine{}, {3, 8}), placed(0, Affine{}, {10, 11, 12}),
+                      placed(0, Affine{}, {20, -1, 22, 23, 24}), placed(2, Affine{}, {7})};
     const Placed p(desc);
     for (int instance = 0; instance < 4; ++instance) {
         const int triangles = instance == 0 || instance == 3 ? 2 : 40;
         for (int t = 0; t < triangles; t += W) {
             const Int triangle = min(Int(t) + lane_index(), Int(triangles - 1));
             const Int material = material_of(p.view, Int(instance), triangle);
-            for (int i = 0; i < W; ++i) EXPECT_EQ(material[i], p.pool.material(instance, static_cast<std::uint32_t>(triangle[i])));
+            for (int i = 0; i < W; ++i)
+                EXPECT_EQ(material[i], p.pool.material(instance, static_cast<std::uint32_t>(triangle[i])));
         }
     }
 }

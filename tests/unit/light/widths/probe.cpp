@@ -11,11 +11,20 @@ void probe_light(const light::LightData& lights, int n, const float* in, float* 
         for (int f = 0; f < 9; ++f) {
             for (int i = 0; i < W; ++i) rows[f][i] = in[(k + i < n ? k + i : n - 1) * 9 + f];
         }
-        const LightReceiver at{{load(rows[0]), load(rows[1]), load(rows[2])}, {load(rows[3]), load(rows[4]), load(rows[5])}};
+        const LightReceiver at{{load(rows[0]), load(rows[1]), load(rows[2])},
+                               {load(rows[3]), load(rows[4]), load(rows[5])}};
         const Mask active = first_lanes(n - k);
         const LightSample s = sample_light(lights, at, {load(rows[6]), load(rows[7])}, active);
-        const Float results[10] = {s.wi.x, s.wi.y, s.wi.z, s.distance, s.radiance.r, s.radiance.g, s.radiance.b, s.pdf,
-                                   select(s.valid, Float(1.0f), Float(0.0f)), to_float(s.emitter)};
+        const Float results[10] = {s.wi.x,
+                                   s.wi.y,
+                                   s.wi.z,
+                                   s.distance,
+                                   s.radiance.r,
+                                   s.radiance.g,
+                                   s.radiance.b,
+                                   s.pdf,
+                                   select(s.valid, Float(1.0f), Float(0.0f)),
+                                   to_float(s.emitter)};
         for (int f = 0; f < 10; ++f) {
             for (int i = 0; i < W && k + i < n; ++i) out[(k + i) * 10 + f] = results[f][i];
         }

@@ -70,7 +70,8 @@ TEST(LightWidths, Agree) {
     for (int k = 0; k < k_count; ++k) {
         const auto u = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
         const float side = k % 5 == 0 ? 0.0f : 1.0f;
-        for (const float f : {6 * u() - 3, 6 * u() - 3, 0.0f, 0.0f, 0.6f * side, 0.8f * side, u(), u(), u()}) in.push_back(f);
+        for (const float f : {6 * u() - 3, 6 * u() - 3, 0.0f, 0.0f, 0.6f * side, 0.8f * side, u(), u(), u()})
+            in.push_back(f);
     }
     std::vector<float> one(k_count * 10), eight(k_count * 10), sixteen(k_count * 10);
     isa_w1::probe_light(table.data(), k_count, in.data(), one.data());
