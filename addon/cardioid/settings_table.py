@@ -106,10 +106,6 @@ k_settings = (
             "Never let a ray slip between two triangles that share an edge. Slower by 12 to 20 percent; "
             "for closed models that are very finely meshed or far from the origin",
             False, None, "robust_intersection"),
-    Setting("physical_refraction", "bool", "Physical Refraction",
-            "Change radiance by the square of the ratio of refractive indices where light is refracted, as in nature. "
-            "Cycles does not. Matters for lamps that are inside water or glass and seen from outside",
-            False, None, "physical_refraction"),
     Setting("memory_limit", "int", "Memory Limit (MB)",
             "Refuse to start a render that needs more memory than this. 0: the machine's memory",
             0, None, "memory_limit", options={"min": 0, "max": 1 << 24}),

@@ -36,7 +36,8 @@ struct Choice {
     Spectrum f{0.0f};
     Float pdf = 0.0f;
     Mask valid, delta, transmitted, diffuse, specular, through;
-    Float blur = 0.0f;  ///< how far the lobe widens the pixel's cone
+    Float blur = 0.0f;   ///< how far the lobe widens the pixel's cone
+    Float alpha = 1.0f;  ///< of a glossy lobe
     Int lobe;
 };
 
@@ -71,7 +72,8 @@ Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick
             c.diffuse |= ok;
             c.blur = select(ok, Float(0.3f), c.blur);
         } else {
-            c.blur = select(ok, 0.3f * load(lobe.alpha_x + i), c.blur);
+            c.alpha = select(ok, load(lobe.alpha_x + i), c.alpha);
+            c.blur = select(ok, 0.3f * c.alpha, c.blur);
         }
         c.specular |= ok & is_specular(lobe, i, caustic_roughness);
         c.lobe = select(ok, Int(k), c.lobe);
@@ -115,6 +117,12 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     kind = kind | select(c.transmitted, Int(nodes::ray_transmission), Int(nodes::ray_reflection));
     const Int state = step_state(state_of(flags), c.specular);
     n.flags = kind | (state << path::k_state_shift) | select(last, Int(path::k_flag_last), Int(0));
+    if (settings.transparent_film && settings.transparent_glass) {
+        // Clear glass lets the background's transparency through, as Cycles' Transparent Glass.
+        const float roughness = settings.transparent_roughness;
+        const Mask clear = c.transmitted & ~c.diffuse & (c.alpha <= Float(roughness * roughness));
+        n.flags = n.flags | select(clear, flags & Int(path::k_flag_background), Int(0));
+    }
     return n;
 }
 

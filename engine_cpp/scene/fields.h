@@ -136,7 +136,7 @@ template <class V>
 void fields(V& v, Of<MaterialDesc> auto& d) {
     v("name", d.name), v("graph", d.graph), v("viewport_color", d.viewport_color), v("metallic", d.metallic);
     v("roughness", d.roughness), v("use_transparent_shadow", d.use_transparent_shadow);
-    v("sample_emission", d.sample_emission), v("backface_culling", d.backface_culling), v("pass_index", d.pass_index);
+    v("sample_emission", d.sample_emission), v("pass_index", d.pass_index);
 }
 
 template <class V>
@@ -176,7 +176,7 @@ void fields(V& v, Of<Settings> auto& d) {
     v("caustic_roughness", d.caustic_roughness), v("pixel_filter", d.pixel_filter), v("filter_width", d.filter_width);
     v("exposure", d.exposure), v("transparent_film", d.transparent_film), v("transparent_glass", d.transparent_glass);
     v("transparent_roughness", d.transparent_roughness), v("robust_intersection", d.robust_intersection);
-    v("physical_refraction", d.physical_refraction), v("memory_limit", d.memory_limit);
+    v("memory_limit", d.memory_limit);
     v("texture_cache_mb", d.texture_cache_mb), v("ocio_config", d.ocio_config);
 }
 

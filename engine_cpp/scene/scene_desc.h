@@ -90,7 +90,6 @@ struct MaterialDesc {
     float metallic = 0, roughness = 0.4f;
     bool use_transparent_shadow = true;
     bool sample_emission = true;  ///< false: emission is found by hits only
-    bool backface_culling = false;
     int pass_index = 0;
 };
 
@@ -176,8 +175,7 @@ struct Settings {
     bool transparent_glass = false;
     float transparent_roughness = 0.1f;
     bool robust_intersection = false;
-    bool physical_refraction = false;  ///< radiance scaled by (eta_from/eta_to)² instead of Cycles' convention
-    std::int64_t memory_limit = 0;     ///< bytes for film and geometry; 0: the machine's memory
+    std::int64_t memory_limit = 0;  ///< bytes for film and geometry; 0: the machine's memory
     int texture_cache_mb = 1024;
     std::string ocio_config;  ///< path; empty: built-in standard spaces
 };

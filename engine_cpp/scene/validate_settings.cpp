@@ -10,7 +10,9 @@ namespace {
 
 constexpr int k_widest = 65536;
 constexpr float k_large = 1e18f;
-constexpr int k_most_bounces = 1024;
+/// Paths count their bounces in bytes (path/batch.h).
+constexpr int k_most_bounces = 254;
+constexpr int k_most_transparent_bounces = 1024;
 
 void check_frame(const Settings& s, ProblemList& problems) {
     if (s.width < 1 || s.height < 1 || s.width > k_widest || s.height > k_widest)
@@ -40,7 +42,7 @@ void repair_settings(Settings& s, ProblemList& problems) {
     repair(problems, who, "max_diffuse_bounces", s.max_diffuse_bounces, 0, k_most_bounces);
     repair(problems, who, "max_glossy_bounces", s.max_glossy_bounces, 0, k_most_bounces);
     repair(problems, who, "max_transmission_bounces", s.max_transmission_bounces, 0, k_most_bounces);
-    repair(problems, who, "max_transparent_bounces", s.max_transparent_bounces, 0, k_most_bounces);
+    repair(problems, who, "max_transparent_bounces", s.max_transparent_bounces, 0, k_most_transparent_bounces);
     repair(problems, who, "clamp_direct", s.clamp_direct, 0, k_large, 0);
     repair(problems, who, "clamp_indirect", s.clamp_indirect, 0, k_large, 0);
     repair(problems, who, "filter_glossy", s.filter_glossy, 0, 1000, 0);

@@ -35,7 +35,7 @@ INSTANCE = {"name": TEXT, "mesh": WHOLE, "group": WHOLE, "transform": _AFFINE, "
             "visibility": WHOLE, "holdout": FLAG, "pass_index": WHOLE, "random": NUMBER, "color": numbers_of(4),
             "dupli_generated": _COLOR, "dupli_uv": numbers_of(2)}
 MATERIAL = {"name": TEXT, "graph": "graph", "viewport_color": _COLOR, "metallic": NUMBER, "roughness": NUMBER,
-            "use_transparent_shadow": FLAG, "sample_emission": FLAG, "backface_culling": FLAG, "pass_index": WHOLE}
+            "use_transparent_shadow": FLAG, "sample_emission": FLAG, "pass_index": WHOLE}
 LIGHT = {"name": TEXT, "kind": one_of("point", "spot", "sun", "area"), "transform": _AFFINE, "color": _COLOR,
          "energy": NUMBER, "radius": NUMBER, "spot_angle": NUMBER, "spot_blend": NUMBER, "angle": NUMBER,
          "shape": one_of("square", "rectangle", "disk", "ellipse"), "size_x": NUMBER, "size_y": NUMBER,

@@ -106,7 +106,6 @@ class CARDIOID_RENDER_PT_caustics(CardioidPanel, bpy.types.Panel):
         setting(column, settings, "refractive_caustics")
         if settings.integrator != "PT":
             layout.prop(settings, "caustic_roughness")
-        layout.prop(settings, "physical_refraction")
 
 
 class CARDIOID_RENDER_PT_film(CardioidPanel, bpy.types.Panel):
