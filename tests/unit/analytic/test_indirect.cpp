@@ -215,7 +215,7 @@ SceneMaker slab_scene(float ior) {
     m.probe({0, -0.4f, 0.3f}, {0, 0, 0});
     m.scene.settings.max_diffuse_bounces = 1;  // what the slab throws back to the floor is another path
     m.scene.settings.max_bounces = m.scene.settings.max_transmission_bounces = m.scene.settings.max_glossy_bounces = 64;
-    m.scene.settings.samples = 512;
+    m.scene.settings.samples = 2048;
     return m;
 }
 
@@ -234,7 +234,7 @@ TEST(AnalyticIndirect, TheCausticSeenInAMirror) {
     // The view goes down by way of a mirror that stands on the floor.
     m.add(quad({0, 1, 0.2f}, {1, 0, 0}, {0, 0, 0.3f}), glossy(0.9f, 0));
     m.probe({0, 0.4f, 0.26f}, {0, 1, 0.1f});
-    m.scene.settings.samples = 4096;
+    m.scene.settings.samples = 8192;
     const double expected = 0.9 * 0.6 / k_pi_d * 5 * sun_through_slab(0.8, 0.35, 1.5);
     // The mirror hides a part of the sky that lies beyond the sun: none of the light.
     expect_value(m.scene, expected, "C1", 0.03, 1e-4);
