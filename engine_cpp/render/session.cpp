@@ -182,7 +182,7 @@ void Session::Impl::render() {
     }
     int first = desc->settings.first_sample;
     for (const int samples : pass_sizes(desc->settings.samples)) {
-        if (stop || out_of_time()) break;
+        if (stop || (first > desc->settings.first_sample && out_of_time())) break;
         render_pass(first, samples);
         first += samples;
     }
@@ -195,7 +195,8 @@ void Session::Impl::render_pass(int first_sample, int samples) {
         [&](std::size_t i) {
             if (stop) return;
             render_tile(list[i], first_sample, samples);
-            if (out_of_time()) stop = true;
+            // The first pass is finished whatever the limit says: a whole picture, never a part of one.
+            if (first_sample > desc->settings.first_sample && out_of_time()) stop = true;
         },
         tbb::simple_partitioner{});
 }
