@@ -74,7 +74,7 @@ inline InstanceDesc sample_instance() {
 inline SceneDesc sample_scene() {
     SceneDesc scene;
     scene.images = sample_images();
-    scene.materials = {{"Wood", sample_graph(), {0.1f, 0.2f, 0.3f}, 0.5f, 0.6f, false, false, true, 3}};
+    scene.materials = {{"Wood", sample_graph(), {0.1f, 0.2f, 0.3f}, 0.5f, 0.6f, false, false, 3}};
     scene.meshes = {sample_mesh()};
     scene.groups = {{"Collection", {sample_instance()}}};
     InstanceDesc placed = sample_instance();
