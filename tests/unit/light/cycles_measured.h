@@ -2,7 +2,8 @@
 // Irradiance of lamps on a plane as Cycles renders it; written by measure_cycles.py.
 #pragma once
 
-// clang-format off: a table, one lamp in four lines
+// A table, one lamp in four lines.
+// clang-format off
 
 namespace cardioid::light_tests {
 
