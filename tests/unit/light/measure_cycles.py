@@ -177,7 +177,9 @@ def literal(value):
 def header(paths):
     print("// SPDX-License-Identifier: GPL-3.0-or-later")
     print("// Irradiance of lamps on a plane as Cycles renders it; written by measure_cycles.py.")
-    print("#pragma once\n\n// A table, one lamp in four lines.\n// clang-format off\n\nnamespace cardioid::light_tests {\n")
+    print(
+        "#pragma once\n\n// A table, one lamp in four lines.\n// clang-format off\n\nnamespace cardioid::light_tests {\n"
+    )
     print("struct Measured {\n    const char *name, *version, *kind, *shape;\n    bool legacy, soft, normalize;")
     print(
         "    float energy, radius, angle, blend, size_x, size_y, spread;\n    float matrix[12];\n    float irradiance[4];\n};\n"  # noqa: E501
