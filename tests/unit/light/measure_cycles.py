@@ -178,7 +178,8 @@ def header(paths):
     print("// SPDX-License-Identifier: GPL-3.0-or-later")
     print("// Irradiance of lamps on a plane as Cycles renders it; written by measure_cycles.py.")
     print(
-        "#pragma once\n\n// A table, one lamp in four lines.\n// clang-format off\n\nnamespace cardioid::light_tests {\n"
+        "#pragma once\n\n// A table, one lamp in four lines.\n// clang-format off\n"
+        "\nnamespace cardioid::light_tests {\n"
     )
     print("struct Measured {\n    const char *name, *version, *kind, *shape;\n    bool legacy, soft, normalize;")
     print(
