@@ -50,7 +50,7 @@ double irradiance(const LightTable& table, const Receiver& at, int n) {
             set_lane(u.y, i, std::min(u.y[i], 0x1.fffffep-1f));
             set_lane(u.z, i, std::min(u.z[i], 0x1.fffffep-1f));
         }
-        const LightSample s = sample_light(table.data(), at.lanes(), u, mask_of(true));
+        const LightSample s = sample_light(table.data(), at.lanes(), Vec3{u.y, u.z, 0.0f}, mask_of(true));
         const Float value = s.radiance.r * max(s.wi.z, 0.0f) / max(s.pdf, 1e-30f);
         sum += static_cast<double>(hsum(select(s.valid, value, Float(0.0f))));
     }
