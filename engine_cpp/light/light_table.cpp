@@ -38,7 +38,7 @@ struct LightTable::Storage {
     void add_triangles(const std::vector<EmissiveTriangle>& triangles, std::vector<TreeLeaf>& finite);
     void add_triangle_lookup(const std::vector<EmissiveTriangle>& triangles);
     void add_world(const WorldInput& world);
-    void add_tree(std::vector<TreeLeaf>& leaves);
+    void add_tree(std::vector<TreeLeaf>& leaves, const Checkpoint& checkpoint);
     void add_entry(int node, bool is_world);
     void set_pointers();
 };
@@ -142,8 +142,8 @@ void LightTable::Storage::add_entry(int node, bool is_world) {
     ++data.entry_count;
 }
 
-void LightTable::Storage::add_tree(std::vector<TreeLeaf>& leaves) {
-    for (const int node : build_light_tree(leaves, nodes)) add_entry(node, false);
+void LightTable::Storage::add_tree(std::vector<TreeLeaf>& leaves, const Checkpoint& checkpoint) {
+    for (const int node : build_light_tree(leaves, nodes, checkpoint)) add_entry(node, false);
 }
 
 void LightTable::Storage::set_pointers() {
@@ -174,14 +174,15 @@ void LightTable::Storage::set_pointers() {
 }
 
 LightTable::LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
-                       const WorldInput* world, Float3 scene_min, Float3 scene_max)
+                       const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint)
     : storage_(std::make_unique<Storage>()) {
     std::vector<TreeLeaf> finite, suns;
     storage_->add_lamps(lamps, scene_min, scene_max, finite, suns);
     storage_->add_triangles(triangles, finite);
+    if (checkpoint) checkpoint();
     storage_->add_triangle_lookup(triangles);
-    storage_->add_tree(finite);
-    storage_->add_tree(suns);
+    storage_->add_tree(finite, checkpoint);
+    storage_->add_tree(suns, checkpoint);
     if (world != nullptr) storage_->add_world(*world);
     storage_->set_pointers();
 }

@@ -46,13 +46,16 @@ struct WorldInput {
     int max_bounces = 1024;
 };
 
+/// Asked while a table is built; throws to stop the building.
+using Checkpoint = std::function<void()>;
+
 /// Plain arrays that the kernels read, see light/light_data.h.
 struct LightData;
 
 class LightTable {
 public:
     LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
-               const WorldInput* world, Float3 scene_min, Float3 scene_max);
+               const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint = {});
     ~LightTable();
     LightTable(LightTable&&) noexcept;
     LightTable& operator=(LightTable&&) noexcept;

@@ -122,8 +122,11 @@ Range make_range(std::span<const TreeLeaf> all, std::size_t begin, std::size_t e
     return {begin, end, depth, end - begin == 1 ? all[begin].bounds : bounds_of(all.subspan(begin, end - begin))};
 }
 
+/// Parting fewer leaves than this takes no time that a person would notice.
+constexpr std::size_t k_leaves_between_checkpoints = 4096;
+
 /// Splits a range into up to k_tree_width parts, each time the one that costs most.
-std::vector<Range> children_of(std::span<TreeLeaf> all, const Range& range) {
+std::vector<Range> children_of(std::span<TreeLeaf> all, const Range& range, const Checkpoint& checkpoint) {
     std::vector<Range> parts{range};
     while (parts.size() < k_tree_width) {
         const auto next = std::max_element(parts.begin(), parts.end(), [](const Range& a, const Range& b) {
@@ -131,6 +134,7 @@ std::vector<Range> children_of(std::span<TreeLeaf> all, const Range& range) {
         });
         if (next->size() <= 1) break;
         const Range whole = *next;
+        if (checkpoint && whole.size() > k_leaves_between_checkpoints) checkpoint();
         const std::size_t middle = whole.begin + partition(all.subspan(whole.begin, whole.size()), whole.depth);
         *next = make_range(all, whole.begin, middle, whole.depth + 1);
         parts.push_back(make_range(all, middle, whole.end, whole.depth + 1));
@@ -149,7 +153,7 @@ int NodeStorage::add(const EmitterBounds& bounds, std::int32_t emitter, std::int
     return index;
 }
 
-std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes) {
+std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes, const Checkpoint& checkpoint) {
     std::vector<int> top;
     if (leaves.empty()) return top;
     const std::span<TreeLeaf> all(leaves);
@@ -163,11 +167,12 @@ std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& no
         if (range.size() > 1) open.push_back({node, range});
         return node;
     };
-    for (const Range& part : children_of(all, make_range(all, 0, all.size(), 0))) top.push_back(add(part, -1));
+    for (const Range& part : children_of(all, make_range(all, 0, all.size(), 0), checkpoint))
+        top.push_back(add(part, -1));
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
-        const std::vector<Range> parts = children_of(all, next.range);
+        const std::vector<Range> parts = children_of(all, next.range, checkpoint);
         nodes.child[static_cast<std::size_t>(next.node)] = nodes.size();
         for (const Range& part : parts) add(part, next.node);
         for (std::size_t i = parts.size(); i < k_tree_width; ++i)

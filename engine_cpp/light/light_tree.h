@@ -4,6 +4,7 @@
 
 #include "light/emitter_bounds.h"
 #include "light/light_data.h"
+#include "light/light_table.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,6 +30,7 @@ struct NodeStorage {
 
 /// Builds the tree of `leaves` without its root: up to k_tree_width nodes without a parent are returned (one for each leaf
 /// where there are few). `leaves` is reordered. Deterministic.
-std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes);
+/// `checkpoint` is called now and then and may throw to stop.
+std::vector<int> build_light_tree(std::vector<TreeLeaf>& leaves, NodeStorage& nodes, const Checkpoint& checkpoint);
 
 }  // namespace cardioid::light

@@ -74,9 +74,10 @@ struct TraceableScene::Impl {
 
     void compile_graphs(const scene::SceneDesc& desc);
     void build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress);
-    void build_lights(const scene::SceneDesc& desc);
+    void build_lights(const scene::SceneDesc& desc, const light::Checkpoint& checkpoint);
     std::vector<light::LampInput> lamp_inputs(const scene::SceneDesc& desc) const;
-    std::vector<light::EmissiveTriangle> emissive_triangles(const scene::SceneDesc& desc);
+    std::vector<light::EmissiveTriangle> emissive_triangles(const scene::SceneDesc& desc,
+                                                            const light::Checkpoint& checkpoint);
     void evaluate_world(int n, const Float3* directions, Float3* radiance) const;
     int default_material() const { return view.material_count - 1; }
 };
@@ -104,7 +105,7 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
     stage("Preparing lights");
     {
         const Stopwatch watch(s.stats.lights_seconds);
-        s.build_lights(desc);
+        s.build_lights(desc, [&] { stage("Preparing lights"); });
     }
     SceneView& v = s.view;
     if (desc.camera) v.camera.desc = *desc.camera;
@@ -224,7 +225,8 @@ std::vector<light::LampInput> TraceableScene::Impl::lamp_inputs(const scene::Sce
     return lamps;
 }
 
-std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(const scene::SceneDesc& desc) {
+std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(const scene::SceneDesc& desc,
+                                                                              const light::Checkpoint& checkpoint) {
     std::vector<light::EmissiveTriangle> list;
     const auto& placed = pool->placed();
     for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -237,6 +239,7 @@ std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(co
         if (std::none_of(ids.begin(), ids.end(), shines)) continue;
         const std::uint32_t count = static_cast<std::uint32_t>(desc.meshes[placed[i].desc->mesh].triangles.size() / 3);
         for (std::uint32_t t = 0; t < count; ++t) {
+            if (t % 65536 == 0) checkpoint();
             const int id = pool->material(instance, t);
             if (!shines(id)) continue;
             const nodes::ProgramInfo& info = materials[id].info;
@@ -278,9 +281,9 @@ void TraceableScene::Impl::evaluate_world(int n, const Float3* directions, Float
     for (int i = 0; i < n; ++i) radiance[i] = {out->emission[0][i], out->emission[1][i], out->emission[2][i]};
 }
 
-void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
+void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc, const light::Checkpoint& checkpoint) {
     const auto lamps = lamp_inputs(desc);
-    const auto triangles = emissive_triangles(desc);
+    const auto triangles = emissive_triangles(desc, checkpoint);
     light::WorldInput world;
     if (view.has_world) {
         const nodes::ProgramInfo& info = materials[view.world_program].info;
@@ -300,7 +303,8 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc) {
     }
     Float3 lo, hi;
     scene_bounds(*pool, lo, hi);
-    lights = std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, lo, hi);
+    lights =
+        std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, lo, hi, checkpoint);
     view.lights = &lights->data();
     view.has_lights = !lights->empty();
     for (const auto& l : lamps) {
