@@ -18,11 +18,11 @@ WHITE, RED, GREEN = (0.76, 0.74, 0.69), (0.60, 0.052, 0.040), (0.105, 0.42, 0.11
 def frame(surface) -> None:
     """The box's shell seen from the front: four bevelled bars around the opening."""
     t = 0.05
-    for name, half, at in (
-        ("frame_left", (t, t, 1.0 + 2 * t), (-1 - t, -1, 1)),
-        ("frame_right", (t, t, 1.0 + 2 * t), (1 + t, -1, 1)),
-        ("frame_top", (1.0, t, t), (0, -1, 2 + t)),
-        ("frame_bottom", (1.0, t, t), (0, -1, -t)),
+    for name, half, at in (  # in front of the walls: coplanar faces would belong to either by chance
+        ("frame_left", (t, t, 1.0 + 2 * t), (-1 - t, -1 - t, 1)),
+        ("frame_right", (t, t, 1.0 + 2 * t), (1 + t, -1 - t, 1)),
+        ("frame_top", (1.0, t, t), (0, -1 - t, 2 + t)),
+        ("frame_bottom", (1.0, t, t), (0, -1 - t, -t)),
     ):
         c.box(name, half, surface, bevel=0.012, location=at)
 
@@ -46,7 +46,7 @@ def build() -> None:
         c.material("panel", "Emission", Color=(1.0, 0.83, 0.62), Strength=17.0),
     )
     trim = c.material("trim", "BsdfDiffuse", Color=(0.30, 0.29, 0.28))
-    for name, half, at in (
+    for name, half, at in (  # in front of the walls: coplanar faces would belong to either by chance
         ("trim_n", (0.29, 0.015, 0.012), (0, 0.325, 1.988)),
         ("trim_s", (0.29, 0.015, 0.012), (0, -0.225, 1.988)),
         ("trim_w", (0.015, 0.26, 0.012), (-0.275, 0.05, 1.988)),
