@@ -187,7 +187,7 @@ def render_comparison() -> Counts:
     if not script.exists():
         print(f"not there: {script.relative_to(ROOT)}")
         return Counts(failed=1)
-    outcome = run("render", [PYTHON, script], seconds=900)
+    outcome = run("render", [PYTHON, script], seconds=1500)
     found = COUNTS.findall(outcome.text)
     counts = Counts(*map(int, found[-1])) if found else Counts()
     for line in outcome.text.splitlines():
