@@ -114,7 +114,9 @@ TEST(OddScenes, ValuesThatAreNotNumbers) {
             render::Session session(std::make_shared<scene::SceneDesc>(scene));
             session.start();
             EXPECT_TRUE(session.wait(60));
-            for (const auto& pass : session.frame()->passes) {
+            // Held: a range over session.frame()->passes would outlive its frame.
+            const auto frame = session.frame();
+            for (const auto& pass : frame->passes) {
                 for (const float v : pass.data) ASSERT_TRUE(std::isfinite(v)) << type << " " << bad << " " << pass.name;
             }
         }
