@@ -4,8 +4,6 @@
 #include "bsdf/kernels.h"
 #include "path/tracer.h"
 
-#include <bit>
-
 namespace cardioid::CD_ISA_NS {
 
 namespace {
@@ -49,10 +47,6 @@ BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3
         sum.pdf_s += select(specular, pdf, Float(0.0f));
     }
     return sum;
-}
-
-int append(float* to, int n, Float value, Mask m) {
-    return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
 }
 
 Mask not_black(Spectrum c) { return (c.r != Float(0.0f)) | (c.g != Float(0.0f)) | (c.b != Float(0.0f)); }
@@ -144,13 +138,7 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         append(q.radiance[2], at_n, c.b, shadowed);
         compress_store(q.path + at_n, path, shadowed);
         q.n += compress_store(q.path_class + at_n, after, shadowed);
-        for (std::uint32_t b = bits(m & ~light.casts_shadow); b != 0; b &= b - 1) {
-            const int k = std::countr_zero(b);
-            auto& sums = result.radiance[after[k]];
-            sums[0][path[k]] += c.r[k];
-            sums[1][path[k]] += c.g[k];
-            sums[2][path[k]] += c.b[k];
-        }
+        add_radiance(result, after, path, c, m & ~light.casts_shadow);
     };
     queue(f.d, f.pdf_d, step_state(state, mask_of(false)), lit & not_black(f.d));
     // Rough specular lobes are connected only while every vertex before was specular: after a D that is a caustic.
@@ -175,13 +163,7 @@ void Tracer::flush_shadows() {
         Spectrum c{load(q.radiance[0] + i), load(q.radiance[1] + i), load(q.radiance[2] + i)};
         if (scene.has_transparent_shadows && any(visible)) c *= through_transparent(ray, visible);
         const Int path = load(q.path + i), path_class = load(q.path_class + i);
-        for (std::uint32_t b = bits(visible); b != 0; b &= b - 1) {
-            const int k = std::countr_zero(b);
-            auto& sums = result.radiance[path_class[k]];
-            sums[0][path[k]] += c.r[k];
-            sums[1][path[k]] += c.g[k];
-            sums[2][path[k]] += c.b[k];
-        }
+        add_radiance(result, path_class, path, c, visible);
     }
     q.n = 0;
 }

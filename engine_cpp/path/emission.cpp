@@ -21,14 +21,7 @@ void Tracer::deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit)
     const Int bounce = byte_of(gather(rays.depth, ray), 0) - Int(emission_hit ? 1 : 0);
     c = clamp_contribution(c, bounce, scene.settings.clamp_direct, scene.settings.clamp_indirect);
     const Int path = gather(rays.path, ray), state = state_of(gather(rays.flags, ray));
-    for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
-        const int k = std::countr_zero(b);
-        auto& sums = result.radiance[state[k]];
-        const int p = path[k];
-        sums[0][p] += c.r[k];
-        sums[1][p] += c.g[k];
-        sums[2][p] += c.b[k];
-    }
+    add_radiance(result, state, path, c, active);
 }
 
 void Tracer::add_surface_emission(int material, const std::int32_t* list) {

@@ -28,18 +28,23 @@ int best_width() {
     return 1;
 }
 
-TraceBatch select_trace_batch(int width) {
+namespace {
+/// The kernel for `width` lanes, at most the machine's best; 0: the best.
+template <class Kernel>
+Kernel by_width(int width, Kernel w1, Kernel w8, Kernel w16) {
     const int best = best_width();
     if (width == 0 || width > best) width = best;
-    if (width == 16) return isa_w16::trace_batch;
-    return width == 8 ? isa_w8::trace_batch : isa_w1::trace_batch;
+    if (width == 16) return w16;
+    return width == 8 ? w8 : w1;
+}
+}  // namespace
+
+TraceBatch select_trace_batch(int width) {
+    return by_width<TraceBatch>(width, isa_w1::trace_batch, isa_w8::trace_batch, isa_w16::trace_batch);
 }
 
 ReplayRays select_replay_rays(int width) {
-    const int best = best_width();
-    if (width == 0 || width > best) width = best;
-    if (width == 16) return isa_w16::replay_rays;
-    return width == 8 ? isa_w8::replay_rays : isa_w1::replay_rays;
+    return by_width<ReplayRays>(width, isa_w1::replay_rays, isa_w8::replay_rays, isa_w16::replay_rays);
 }
 
 }  // namespace path

@@ -126,10 +126,6 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     return n;
 }
 
-int append(float* to, int n, Float value, Mask m) {
-    return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
-}
-
 }  // namespace
 
 void Tracer::fill_shading(int material, const std::int32_t* list, int n) {

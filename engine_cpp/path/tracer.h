@@ -6,6 +6,8 @@
 #include "path/dimensions.h"
 #include "trace/surface.h"
 
+#include <bit>
+
 namespace cardioid::CD_ISA_NS {
 
 struct Tracer {
@@ -120,6 +122,22 @@ inline void store3(path::PathFloats (&rows)[3], int index, Vec3 a) {
     store(rows[0] + index, a.x);
     store(rows[1] + index, a.y);
     store(rows[2] + index, a.z);
+}
+
+/// The lanes of `value` that m selects, next to each other from to[n] on; returns how many.
+inline int append(float* to, int n, Float value, Mask m) {
+    return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
+}
+
+/// Adds radiance to the paths' sums of their classes, in lane order: several lanes may share a path.
+inline void add_radiance(path::BatchResult& result, Int path_class, Int path, Spectrum c, Mask active) {
+    for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
+        const int k = std::countr_zero(b);
+        auto& sums = result.radiance[path_class[k]];
+        sums[0][path[k]] += c.r[k];
+        sums[1][path[k]] += c.g[k];
+        sums[2][path[k]] += c.b[k];
+    }
 }
 
 /// MIS by the power heuristic (exponent 2); pdf of the other technique may be 0.
