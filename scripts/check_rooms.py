@@ -18,7 +18,7 @@ LICENSE_LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 
 _SCENE = {"math", "scene"}
 _TRACE = {"simd", "math", "scene", "image", "bsdf", "nodes", "light"}
-_RENDER = _TRACE | {"trace", "path", "film"}
+_RENDER = _TRACE | {"trace", "path", "photon", "film"}
 
 # What each room may include besides itself.
 ALLOWED: dict[str, set[str]] = {
@@ -30,7 +30,8 @@ ALLOWED: dict[str, set[str]] = {
     "nodes": {"simd", "math", "scene", "image", "bsdf"},
     "light": {"simd", "math", "scene"},
     "trace": _TRACE,
-    "path": _TRACE | {"trace"},
+    "photon": {"math"},
+    "path": _TRACE | {"trace", "photon"},
     "film": _SCENE,
     "render": _RENDER,
     "apps": _RENDER | {"render"},

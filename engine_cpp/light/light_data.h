@@ -108,7 +108,19 @@ struct EnvironmentData {
     const float* row_z = nullptr;        ///< height + 1: z of the row borders, 1 … -1
 };
 
+/// What photons are aimed at (light/emit.h).
+struct Sphere {
+    float center[3] = {0, 0, 0};
+    float radius = 0;
+};
+
 struct LightData {
+    Sphere scene;    ///< around everything; infinite emitters send photons through its cross section
+    Sphere casters;  ///< around the instances with specular lobes; radius 0: none are known, nothing is aimed
+    int emitter_count = 0;
+    /// Per emitter: flux toward the casters, roughly (W); 0: sends no photons. For choosing emitters at the start.
+    const float* emission_power = nullptr;
+
     int lamp_count = 0;
     const float* lamp = nullptr;
     const std::int32_t* lamp_int = nullptr;

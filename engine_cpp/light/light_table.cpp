@@ -174,7 +174,8 @@ void LightTable::Storage::set_pointers() {
 }
 
 LightTable::LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
-                       const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint)
+                       const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint,
+                       const PhotonTargets& /*targets*/)
     : storage_(std::make_unique<Storage>()) {
     std::vector<TreeLeaf> finite, suns;
     storage_->add_lamps(lamps, scene_min, scene_max, finite, suns);

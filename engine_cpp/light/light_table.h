@@ -49,13 +49,20 @@ struct WorldInput {
 /// Asked while a table is built; throws to stop the building.
 using Checkpoint = std::function<void()>;
 
+/// Bounds that photons are aimed at; casters are instances whose materials may have specular lobes (spec 1).
+struct PhotonTargets {
+    bool any_casters = false;
+    Float3 casters_min{0, 0, 0}, casters_max{0, 0, 0};
+};
+
 /// Plain arrays that the kernels read, see light/light_data.h.
 struct LightData;
 
 class LightTable {
 public:
     LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
-               const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint = {});
+               const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint = {},
+               const PhotonTargets& targets = {});
     ~LightTable();
     LightTable(LightTable&&) noexcept;
     LightTable& operator=(LightTable&&) noexcept;

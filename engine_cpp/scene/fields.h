@@ -48,7 +48,15 @@ struct EnumNames<CameraKind> {
 };
 template <>
 struct EnumNames<IntegratorKind> {
-    static constexpr std::string_view names[] = {"path_tracing"};
+    static constexpr std::string_view names[] = {"path_tracing", "hybrid", "photon_mapping"};
+};
+template <>
+struct EnumNames<IndirectCaustics> {
+    static constexpr std::string_view names[] = {"photons", "path_tracing", "off"};
+};
+template <>
+struct EnumNames<RadiusSchedule> {
+    static constexpr std::string_view names[] = {"memoryless", "per_pixel"};
 };
 template <>
 struct EnumNames<PixelFilter> {
@@ -173,7 +181,11 @@ void fields(V& v, Of<Settings> auto& d) {
     v("max_transparent_bounces", d.max_transparent_bounces), v("clamp_direct", d.clamp_direct);
     v("clamp_indirect", d.clamp_indirect), v("reflective_caustics", d.reflective_caustics);
     v("refractive_caustics", d.refractive_caustics), v("filter_glossy", d.filter_glossy);
-    v("caustic_roughness", d.caustic_roughness), v("pixel_filter", d.pixel_filter), v("filter_width", d.filter_width);
+    v("caustic_roughness", d.caustic_roughness), v("indirect_caustics", d.indirect_caustics);
+    v("photons", d.photons), v("photon_radius", d.photon_radius), v("radius_shrink", d.radius_shrink);
+    v("radius_schedule", d.radius_schedule), v("guided_emission", d.guided_emission);
+    v("blend_caustic_hits", d.blend_caustic_hits), v("physical_refraction", d.physical_refraction);
+    v("pixel_filter", d.pixel_filter), v("filter_width", d.filter_width);
     v("exposure", d.exposure), v("transparent_film", d.transparent_film), v("transparent_glass", d.transparent_glass);
     v("transparent_roughness", d.transparent_roughness), v("robust_intersection", d.robust_intersection);
     v("memory_limit", d.memory_limit);

@@ -149,7 +149,17 @@ struct CameraDesc {
     float aperture_ratio = 1;  ///< anamorphic bokeh: > 1 squeezes horizontally
 };
 
-enum class IntegratorKind : std::uint8_t { path_tracing };  ///< grows with the photon pass
+/// Which of the path classes D1…C2 camera paths estimate, and which photons do (spec 2).
+enum class IntegratorKind : std::uint8_t {
+    path_tracing,    ///< PT: camera paths all
+    hybrid,          ///< PTPPM: camera paths D1, D2, D3; photons C1, C2
+    photon_mapping,  ///< SPPM: camera paths D1; photons the rest
+};
+enum class IndirectCaustics : std::uint8_t { photons, path_tracing, off };  ///< C2 in the hybrid
+enum class RadiusSchedule : std::uint8_t {
+    memoryless,  ///< by the number of the pass alone (Knaus & Zwicker 2011)
+    per_pixel,   ///< by the photons that each pixel has found (thesis 5.2–5.5)
+};
 enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
 
 struct Settings {
@@ -167,7 +177,15 @@ struct Settings {
     float clamp_direct = 0, clamp_indirect = 0;  ///< 0: off
     bool reflective_caustics = true, refractive_caustics = true;
     float filter_glossy = 0;
-    float caustic_roughness = 0;  ///< lobes at or under it are class S
+    float caustic_roughness = 0.1f;  ///< lobes at or under it are class S; path tracing alone takes 0
+    IndirectCaustics indirect_caustics = IndirectCaustics::photons;
+    std::int64_t photons = 0;  ///< emitted for each sample of the whole frame; 0: by the number of pixels and balance
+    float photon_radius = 2;   ///< first radius of a gather, in footprints of a pixel
+    float radius_shrink = 0.6666667f;  ///< alpha in (0, 1]: the smaller, the faster radii shrink; 1: never
+    RadiusSchedule radius_schedule = RadiusSchedule::memoryless;
+    bool guided_emission = true;       ///< photons learn in the first passes where they are needed
+    bool blend_caustic_hits = true;    ///< camera paths that meet a lamp through D S+ count too, weighted by MIS
+    bool physical_refraction = false;  ///< radiance scaled by eta² in denser media; false: as Cycles, where it is not
     PixelFilter pixel_filter = PixelFilter::blackman_harris;
     float filter_width = 1.5f;  ///< pixels
     float exposure = 1;

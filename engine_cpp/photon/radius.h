@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Radii of the gathers: by the number of the pass alone (Knaus & Zwicker 2011), or by what a pixel has found (thesis 5.2–5.5).
+#pragma once
+
+#include <cstdint>
+
+namespace cardioid::photon {
+
+/// r² of sample `index` (0, 1, …) over r² of sample 0: Π_{j=1}^{index} (j + alpha)/(j + 1), through log-gammas, so that any index
+/// costs the same. 1 for alpha 1.
+double memoryless_scale(std::int64_t index, double alpha);
+
+/// Statistics of one pixel in the per-pixel schedule. Radiance is tau / (emitted so far · pi · radius²).
+struct PixelStatistics {
+    float n = 0;           ///< accumulated photons, thesis N
+    float radius = 0;      ///< 0: no hit point yet
+    float tau[2][3] = {};  ///< flux by class: C1 (or all), C2
+};
+
+/// Takes the photons of a pass into account (thesis 5.2–5.4): `found` photons within the radius and their flux × throughput.
+/// N + M = 0 changes nothing.
+void update(PixelStatistics& pixel, float found, const float (&phi)[2][3], float alpha);
+
+}  // namespace cardioid::photon
