@@ -63,6 +63,22 @@ bool makes_normals(const Program& p) {
     });
 }
 
+/// Least roughness of the glossy lobes that is sure before shading.
+float least_alpha(const Program& p) {
+    float least = 1e30f;
+    for (const Instruction& in : p.code) {
+        if (in.op != Op::lobe_ggx || (in.imm & lobe_keep) == 0) continue;
+        float larger = 0;
+        for (const std::uint32_t axis : {9u, 10u}) {
+            const std::uint16_t arg = p.args[in.args + axis];
+            const bool constant = (arg & operand_constant) != 0;
+            larger = std::max(larger, constant ? p.constants[std::size_t(arg & k_operand_index) * k_constant_stride] : 0);
+        }
+        least = std::min(least, larger);
+    }
+    return least;
+}
+
 ProgramInfo describe(const CompiledGraph& g) {
     const Program& surface = g.of(Purpose::surface);
     const Program& emission = g.of(Purpose::emission);
@@ -85,6 +101,7 @@ ProgramInfo describe(const CompiledGraph& g) {
         info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
                       in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;
     info.has_lobes = info.lobes > 0;
+    info.least_alpha = least_alpha(surface);
     return info;
 }
 

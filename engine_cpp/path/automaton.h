@@ -35,4 +35,63 @@ constexpr PathClass class_of(State s) { return static_cast<PathClass>(s); }
 /// True for the classes that photons estimate in the hybrid mode.
 constexpr bool is_caustic(PathClass c) { return c == PathClass::c1 || c == PathClass::c2; }
 
+/// A set of classes, one bit each.
+using ClassSet = std::uint8_t;
+constexpr ClassSet bit(PathClass c) { return static_cast<ClassSet>(1u << static_cast<int>(c)); }
+inline constexpr ClassSet k_all_classes = 31;
+
+/// Classes of the light that may be attached at or after a state.
+constexpr ClassSet reachable(State s) {
+    switch (s) {
+        case State::specular: return k_all_classes;
+        case State::first_d: return k_all_classes & ~bit(PathClass::d1);
+        default: return bit(PathClass::d3) | bit(PathClass::c1) | bit(PathClass::c2);
+    }
+}
+
+/// String of lobe classes that a photon has seen, from the light.
+enum class PhotonState : std::uint8_t {
+    start,             ///< L
+    specular,          ///< L S+
+    diffuse,           ///< L D
+    diffuse_specular,  ///< L D S+
+    caustic,           ///< L S+ D …        C1 from here on
+    indirect_caustic,  ///< L D S+ D …      C2
+    indirect,          ///< L D D …         D3
+};
+inline constexpr int k_photon_states = 7;
+
+constexpr PhotonState step(PhotonState s, bool specular_lobe) {
+    switch (s) {
+        case PhotonState::start: return specular_lobe ? PhotonState::specular : PhotonState::diffuse;
+        case PhotonState::specular: return specular_lobe ? s : PhotonState::caustic;
+        case PhotonState::diffuse: return specular_lobe ? PhotonState::diffuse_specular : PhotonState::indirect;
+        case PhotonState::diffuse_specular: return specular_lobe ? s : PhotonState::indirect_caustic;
+        default: return s;
+    }
+}
+
+/// Class of the light that a photon brings to a surface with D lobes, where a camera path gathers it.
+constexpr PathClass stored_class(PhotonState before) {
+    switch (step(before, false)) {
+        case PhotonState::diffuse: return PathClass::d2;
+        case PhotonState::caustic: return PathClass::c1;
+        case PhotonState::indirect_caustic: return PathClass::c2;
+        default: return PathClass::d3;
+    }
+}
+
+/// Classes that a photon in this state may still be stored as.
+constexpr ClassSet reachable(PhotonState s) {
+    switch (s) {
+        case PhotonState::start: return k_all_classes & ~bit(PathClass::d1);
+        case PhotonState::specular:
+        case PhotonState::caustic: return bit(PathClass::c1);
+        case PhotonState::diffuse: return bit(PathClass::d3) | bit(PathClass::c2);
+        case PhotonState::diffuse_specular:
+        case PhotonState::indirect_caustic: return bit(PathClass::c2);
+        default: return bit(PathClass::d3);
+    }
+}
+
 }  // namespace cardioid::path

@@ -11,14 +11,14 @@ double memoryless_scale(std::int64_t index, double alpha) {
     return std::exp(std::lgamma(n + 1 + alpha) - std::lgamma(1 + alpha) - std::lgamma(n + 2));
 }
 
-void update(PixelStatistics& pixel, float found, const float (&phi)[2][3], float alpha) {
+void update(PixelStatistics& pixel, float found, const float (&phi)[k_photon_classes][3], float alpha) {
     const float before = pixel.n + found;
     if (before <= 0) return;
     const float after = pixel.n + alpha * found;
     const float ratio = after / before;
     pixel.radius *= std::sqrt(ratio);
     pixel.n = after;
-    for (int c = 0; c < 2; ++c) {
+    for (int c = 0; c < k_photon_classes; ++c) {
         for (int k = 0; k < 3; ++k) pixel.tau[c][k] = (pixel.tau[c][k] + phi[c][k]) * ratio;
     }
 }

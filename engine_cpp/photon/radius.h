@@ -10,15 +10,17 @@ namespace cardioid::photon {
 /// costs the same. 1 for alpha 1.
 double memoryless_scale(std::int64_t index, double alpha);
 
+inline constexpr int k_photon_classes = 4;
+
 /// Statistics of one pixel in the per-pixel schedule. Radiance is tau / (emitted so far · pi · radius²).
 struct PixelStatistics {
-    float n = 0;           ///< accumulated photons, thesis N
-    float radius = 0;      ///< 0: no hit point yet
-    float tau[2][3] = {};  ///< flux by class: C1 (or all), C2
+    float n = 0;                          ///< accumulated photons, thesis N
+    float radius = 0;                     ///< 0: no hit point yet
+    float tau[k_photon_classes][3] = {};  ///< flux by class: D2, D3, C1, C2
 };
 
 /// Takes the photons of a pass into account (thesis 5.2–5.4): `found` photons within the radius and their flux × throughput.
 /// N + M = 0 changes nothing.
-void update(PixelStatistics& pixel, float found, const float (&phi)[2][3], float alpha);
+void update(PixelStatistics& pixel, float found, const float (&phi)[k_photon_classes][3], float alpha);
 
 }  // namespace cardioid::photon

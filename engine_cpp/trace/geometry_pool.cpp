@@ -161,6 +161,7 @@ void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_mate
         slot_mask_.push_back(r.multi_material ? -1 : 0);
         first_material_.push_back(static_cast<std::int32_t>(slot_materials_.size()));
         holdout_.push_back(p.desc->holdout);
+        visibility_.push_back(p.visibility);
         any_holdout_ = any_holdout_ || p.desc->holdout;
         const auto& slots = desc.meshes[m].slots;
         const int slot_count = slots.empty() ? 1 : *std::max_element(slots.begin(), slots.end()) + 1;
@@ -174,7 +175,7 @@ void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_mate
     if (infos_.empty()) {
         infos_.emplace_back();
         for (auto* v : {&mesh_, &first_triangle_, &first_vertex_, &smooth_, &baked_, &flip_, &slot_mask_,
-                        &first_material_, &holdout_})
+                        &first_material_, &holdout_, &visibility_})
             v->push_back(0);
         slot_materials_.push_back(default_material);
     }
@@ -227,7 +228,7 @@ void GeometryPool::fill(SceneView& view) const {
     g.instances = infos_.data();
     g.meshes = mesh_infos_.data();
     view.instances = {mesh_.data(), first_triangle_.data(), first_vertex_.data(),   smooth_.data(), baked_.data(),
-                      flip_.data(), slot_mask_.data(),      first_material_.data(), holdout_.data()};
+                      flip_.data(), slot_mask_.data(),      first_material_.data(), holdout_.data(), visibility_.data()};
     view.packed_normals = packed_normals_.data();
     view.slots = slots_.data();
     view.slot_materials = slot_materials_.data();
@@ -237,7 +238,7 @@ void GeometryPool::fill(SceneView& view) const {
 std::int64_t GeometryPool::memory_bytes() const {
     return static_cast<std::int64_t>(positions_.capacity() * 4 + triangles_.capacity() * 4 +
                                      packed_normals_.capacity() * 4 + slots_.capacity() * 4 + floats_.capacity() * 4 +
-                                     infos_.capacity() * sizeof(nodes::InstanceInfo) + mesh_.capacity() * 9 * 4 +
+                                     infos_.capacity() * sizeof(nodes::InstanceInfo) + mesh_.capacity() * 10 * 4 +
                                      slot_materials_.capacity() * 4);
 }
 

@@ -65,7 +65,7 @@ private:
     std::vector<nodes::InstanceInfo> infos_;
     std::vector<nodes::MeshInfo> mesh_infos_;
     std::vector<std::int32_t> mesh_, first_triangle_, first_vertex_, smooth_, baked_, flip_, slot_mask_,
-        first_material_, holdout_;
+        first_material_, holdout_, visibility_;
     int attribute_names_ = 0;
     bool any_holdout_ = false;
 };

@@ -43,6 +43,7 @@ struct InstanceArrays {
     const std::int32_t* slot_mask = nullptr;       ///< 0: one material for the whole mesh; ~0: look the slot up
     const std::int32_t* first_material = nullptr;  ///< into slot_materials
     const std::int32_t* holdout = nullptr;
+    const std::int32_t* visibility = nullptr;  ///< scene::Visibility bits
 };
 
 struct CameraView {
@@ -66,6 +67,8 @@ struct SceneView {
     const light::LightData* lights = nullptr;
     bool has_lights = false;
     bool lights_are_limited = false;  ///< some lamp or the world is hidden from a kind of lobe or ends early
+    bool has_casters = false;         ///< some lobe may be class S: there can be caustics
+    bool is_limited = false;          ///< lights_are_limited, or some object is hidden from a kind of lobe
     bool has_world = false;           ///< something shines from outside
     std::uint8_t world_visibility = scene::visible_all;
     int world_max_bounces = 1024;

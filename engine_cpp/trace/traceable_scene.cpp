@@ -5,6 +5,7 @@
 #include "light/light_table.h"
 #include "nodes/compile.h"
 #include "nodes/run.h"
+#include "trace/bounds.h"
 #include "trace/embree_scene.h"
 #include "trace/geometry_pool.h"
 
@@ -33,29 +34,19 @@ bool is_limited(std::uint8_t visibility, int max_bounces, int path_bounces) {
     return (visibility & lobes) != lobes || max_bounces < path_bounces;
 }
 
-bool is_black(Float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
-
-void scene_bounds(const GeometryPool& pool, Float3& lo, Float3& hi) {
-    lo = {1e30f, 1e30f, 1e30f};
-    hi = {-1e30f, -1e30f, -1e30f};
-    const auto& placed = pool.placed();
-    for (std::size_t i = 0; i < placed.size(); ++i) {
-        const auto& range = pool.meshes()[placed[i].desc->mesh];
-        const float* p = pool.positions(placed[i].desc->mesh);
-        Float3 a{1e30f, 1e30f, 1e30f}, b{-1e30f, -1e30f, -1e30f};
-        for (std::uint32_t v = 0; v < range.vertices; ++v) {
-            a = {std::min(a.x, p[3 * v]), std::min(a.y, p[3 * v + 1]), std::min(a.z, p[3 * v + 2])};
-            b = {std::max(b.x, p[3 * v]), std::max(b.y, p[3 * v + 1]), std::max(b.z, p[3 * v + 2])};
-        }
-        for (int corner = 0; corner < 8; ++corner) {
-            Float3 c{corner & 1 ? a.x : b.x, corner & 2 ? a.y : b.y, corner & 4 ? a.z : b.z};
-            if (!range.baked) c = placed[i].transform.point(c);
-            lo = {std::min(lo.x, c.x), std::min(lo.y, c.y), std::min(lo.z, c.z)};
-            hi = {std::max(hi.x, c.x), std::max(hi.y, c.y), std::max(hi.z, c.z)};
-        }
+/// Path tracing calls deltas alone specular. With photons the classes of a path must be the same from both ends, so nothing that
+/// changes lobes on one side applies.
+scene::Settings effective_settings(scene::Settings s) {
+    if (s.integrator == scene::IntegratorKind::path_tracing) {
+        s.caustic_roughness = 0;
+    } else {
+        s.reflective_caustics = s.refractive_caustics = true;
+        s.filter_glossy = 0;
     }
-    if (lo.x > hi.x) lo = hi = {0, 0, 0};
+    return s;
 }
+
+bool is_black(Float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 }  // namespace
 
@@ -78,6 +69,8 @@ struct TraceableScene::Impl {
     std::vector<light::LampInput> lamp_inputs(const scene::SceneDesc& desc) const;
     std::vector<light::EmissiveTriangle> emissive_triangles(const scene::SceneDesc& desc,
                                                             const light::Checkpoint& checkpoint);
+    /// Some lobe of the instance may be specular (spec 1).
+    bool may_cast(int instance) const;
     void evaluate_world(int n, const Float3* directions, Float3* radiance) const;
     int default_material() const { return view.material_count - 1; }
 };
@@ -88,7 +81,7 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
     const auto stage = [&](const char* name) {
         if (progress(name)) throw BuildCancelled{};
     };
-    s.view.settings = desc.settings;
+    s.view.settings = effective_settings(desc.settings);
     stage("Loading images");
     {
         const Stopwatch watch(s.stats.images_seconds);
@@ -301,10 +294,16 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc, const ligh
         world.program = info.constant_emission ? -1 : view.world_program;
         world.eval = [this](int n, const Float3* d, Float3* r) { evaluate_world(n, d, r); };
     }
-    Float3 lo, hi;
-    scene_bounds(*pool, lo, hi);
-    lights =
-        std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, lo, hi, checkpoint);
+    const Box all = scene_bounds(*pool, [](int) { return true; });
+    const Box casters = scene_bounds(*pool, [&](int instance) { return may_cast(instance); });
+    view.has_casters = !casters.empty();
+    light::PhotonTargets targets;
+    targets.any_casters = view.has_casters;
+    targets.casters_min = casters.low;
+    targets.casters_max = casters.high;
+    const Box bounds = all.empty() ? Box{{0, 0, 0}, {0, 0, 0}} : all;
+    lights = std::make_unique<light::LightTable>(lamps, triangles, view.has_world ? &world : nullptr, bounds.low,
+                                                 bounds.high, checkpoint, targets);
     view.lights = &lights->data();
     view.has_lights = !lights->empty();
     for (const auto& l : lamps) {
@@ -315,6 +314,16 @@ void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc, const ligh
         view.lights_are_limited = view.lights_are_limited || is_limited(desc.world->visibility, desc.world->max_bounces,
                                                                         desc.settings.max_bounces);
     }
+    view.is_limited = view.lights_are_limited;
+    for (const PlacedMesh& p : pool->placed())
+        view.is_limited = view.is_limited || is_limited(p.visibility, desc.settings.max_bounces, 0);
+}
+
+bool TraceableScene::Impl::may_cast(int instance) const {
+    const float roughness = view.settings.caustic_roughness;
+    const float alpha = std::max(roughness * roughness, bsdf::k_delta_alpha);
+    const auto ids = pool->materials_of(instance);
+    return std::any_of(ids.begin(), ids.end(), [&](int id) { return materials[id].info.least_alpha <= alpha; });
 }
 
 }  // namespace cardioid::trace
