@@ -10,15 +10,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import core
-from .settings_table import k_integrators
+from .settings_table import k_by_name, k_integrators
 
 
 @dataclass(frozen=True)
 class Arguments:
-    """overrides: settings by their name in scene.cardioid. stats, export: files to write. problems: wrong values."""
+    """overrides: settings by their name in scene.cardioid. stats, export: files to write. print_stats: a table on the
+    terminal. problems: wrong values."""
 
     overrides: dict[str, Any] = field(default_factory=dict)
     stats: str = ""
+    print_stats: bool = False
     export: str = ""
     problems: tuple[str, ...] = ()
 
@@ -60,14 +62,60 @@ def _integrator(text: str) -> str:
     return text.upper()
 
 
+def _number(least: float, most: float):
+    def parse(text: str) -> float:
+        try:
+            number = float(text)
+        except ValueError:
+            number = float("nan")
+        if not least <= number <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a number from {least:g} to {most:g}")
+        return number
+
+    return parse
+
+
+def _choice(values: dict[str, Any]):
+    """One of `values`' names, in any case; its value."""
+    def parse(text: str) -> Any:
+        if text.lower() not in values:
+            raise argparse.ArgumentTypeError(f"'{text}' is not one of {', '.join(values)}")
+        return values[text.lower()]
+
+    return parse
+
+
+def _of_setting(name: str, metavar: str, text: str) -> tuple:
+    """The argument of a setting of the table, with the setting's own limits."""
+    setting = k_by_name[name]
+    if setting.kind == "int":
+        parser = _integer(setting.options["min"])
+    elif setting.kind == "float":
+        parser = _number(setting.options["min"], setting.options["max"])
+    else:
+        values = {key.lower(): key for key in setting.items} if setting.items else {"on": True, "off": False}
+        parser, metavar = _choice(values), "|".join(values)
+    return f"--cardioid-{name.replace('_', '-')}", name, parser, metavar, text
+
+
 k_arguments = (
-    # option, name in scene.cardioid, parser, value's name, help
+    # option, name in scene.cardioid, parser (None: a flag), value's name, help
     ("--cardioid-samples", "samples", _integer(1), "N", "camera paths a pixel"),
     ("--cardioid-integrator", "integrator", _integrator, "NAME", "PTPPM, PT or SPPM, as far as the engine has them"),
     ("--cardioid-time-limit", "time_limit", _seconds, "SECONDS", "stop a frame after this time; 0: no limit"),
     ("--cardioid-threads", "threads", _integer(0), "N", "threads to render with; 0: as Blender is set"),
     ("--cardioid-seed", "seed", _integer(0), "N", "seed of the noise"),
+    _of_setting("indirect_caustics", "", "what makes caustics of scattered light"),
+    _of_setting("photons", "N", "photons for each sample of the picture; 0: by the size of the picture"),
+    _of_setting("photon_radius", "PIXELS", "radius at the start within which a pixel looks for photons"),
+    _of_setting("caustic_roughness", "ROUGHNESS", "reflections up to this roughness throw caustics by photons"),
+    _of_setting("radius_shrink", "ALPHA", "the smaller, the faster radii shrink; 1: never"),
+    _of_setting("radius_schedule", "", "what makes radii shrink"),
+    _of_setting("guided_emission", "", "photons learn where they are needed"),
+    _of_setting("blend_caustic_hits", "", "caustics that path tracing finds count too"),
+    _of_setting("physical_refraction", "", "radiance changes where light enters glass"),
     ("--cardioid-stats", "stats", str, "FILE.json", "write times, counts and memory of each frame there"),
+    ("--cardioid-print-stats", "print_stats", None, None, "print a table of counts and times after each frame"),
     ("--cardioid-export", "export", str, "FILE.cardioid", "save the scene for cardioid-render; # is the frame number"),
 )
 
@@ -81,7 +129,10 @@ def parse(argv: Sequence[str]) -> Arguments:
     rest = list(argv[list(argv).index("--") + 1:])
     for option, name, convert, metavar, text in k_arguments:
         parser = _Parser(add_help=False, allow_abbrev=False)
-        parser.add_argument(option, dest=name, type=convert, metavar=metavar, help=text)
+        if convert is None:
+            parser.add_argument(option, dest=name, action="store_const", const=True, help=text)
+        else:
+            parser.add_argument(option, dest=name, type=convert, metavar=metavar, help=text)
         try:
             found, rest = parser.parse_known_args(rest)
         except ValueError as error:
@@ -91,7 +142,8 @@ def parse(argv: Sequence[str]) -> Arguments:
             values[name] = getattr(found, name)
     problems += [f"{word.split('=')[0]}: there is no such option" for word in rest if word.startswith("--cardioid-")
                  and word.split("=")[0] not in {argument[0] for argument in k_arguments}]
-    return Arguments(values, values.pop("stats", ""), values.pop("export", ""), tuple(problems))
+    others = {name: values.pop(name) for name in ("stats", "print_stats", "export") if name in values}
+    return Arguments(overrides=values, problems=tuple(problems), **others)
 
 
 def current() -> Arguments:

@@ -9,7 +9,7 @@ from typing import Any
 
 import bpy
 
-from . import cli_args, core, export, frame_size, messages, passes, render_loop, sessions, stats_file
+from . import cli_args, core, export, frame_size, messages, passes, render_loop, report, sessions, stats_file
 from .messages import RenderProblem
 from .render_result import Target
 from .resolve import resolve
@@ -65,8 +65,7 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
         target.close()
     if not engine.is_preview:
         _stamp(engine, layer.name, entry)
-        if arguments.stats:
-            _write_stats(engine, arguments.stats, entry)
+        _tell(engine, arguments, entry)
 
 
 def _export(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph,
@@ -103,10 +102,14 @@ def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Ex
     entry["render_seconds"] = time.monotonic() - start
 
 
-def _write_stats(engine: bpy.types.RenderEngine, path: str, entry: dict[str, Any]) -> None:
-    """A full disk costs the statistics, never the picture."""
+def _tell(engine: bpy.types.RenderEngine, arguments: cli_args.Arguments, entry: dict[str, Any]) -> None:
+    """Statistics for the command line. A full disk costs them, never the picture."""
+    if arguments.print_stats:
+        print(report.table(entry), flush=True)
+    if not arguments.stats:
+        return
     try:
-        stats_file.add(path, entry, core.versions())
+        stats_file.add(arguments.stats, entry, core.versions())
     except RenderProblem as problem:
         messages.warn(engine, [str(problem)])
 
@@ -128,11 +131,6 @@ def _stamp(engine: bpy.types.RenderEngine, layer: str, entry: dict[str, Any]) ->
     result = engine.get_result()
     if result is None:
         return
-    seconds = entry["export_seconds"] + entry["render_seconds"]
-    for field, value in (
-            ("cardioid.version", core.versions().get("engine", "")),
-            (f"cardioid.{layer}.integrator", entry["settings"]["integrator"]),
-            (f"cardioid.{layer}.samples", entry["samples"]),
-            (f"cardioid.{layer}.seed", entry["settings"]["seed"]),
-            (f"cardioid.{layer}.render_time", f"{seconds:.2f}")):
-        result.stamp_data_add_field(field, str(value))
+    result.stamp_data_add_field("cardioid.version", core.versions().get("engine", ""))
+    for one in report.figures(entry):
+        result.stamp_data_add_field(f"cardioid.{layer}.{one.name}", one.value)

@@ -47,6 +47,8 @@ k_passes = (
          "Light that reaches the camera straight from lamps and emitters, or over mirrors and glass alone"),
     _own("D2", "Direct", "Light that was scattered by one rough surface on its way from the lamp"),
     _own("D3", "Indirect", "Light that was scattered by rough surfaces more than once"),
+    _own("C1", "Caustics", "Light of lamps that mirrors, metal, glass or water throw onto rougher surfaces"),
+    _own("C2", "Indirect Caustics", "Caustics of light that a rough surface has scattered first"),
 )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from . import cycles_values
-from .settings_table import k_integrators, k_settings
+from .settings_table import Setting, k_integrators, k_settings
 
 k_preview_samples = 24
 k_preview_bounces = 6
@@ -72,13 +72,18 @@ def _threads(scene: bpy.types.Scene, threads: int) -> int:
     return threads
 
 
+def _engine_value(setting: Setting, value: Any) -> Any:
+    return value.lower() if setting.kind == "enum" else value
+
+
 def _engine_settings(scene: bpy.types.Scene, values: dict[str, Any]) -> dict[str, Any]:
     if values["integrator"] not in k_integrators:
         raise ValueError("This file asks for an integrator that this version of Cardioid does not have; choose another "
                          "in Render Properties, Sampling")
-    engine = {setting.key: values[setting.name] for setting in k_settings if setting.key}
+    engine = {setting.key: _engine_value(setting, values[setting.name]) for setting in k_settings if setting.key}
     engine["integrator"] = k_integrators[values["integrator"]][3]
-    engine["pixel_filter"] = values["pixel_filter"].lower()
+    if values["integrator"] == "PT":
+        engine["caustic_roughness"] = 0.0  # all but exact mirrors and glass is diffuse to it
     engine["threads"] = _threads(scene, values["threads"])
     engine["memory_limit"] = values["memory_limit"] * k_megabyte
     engine["transparent_film"] = scene.render.film_transparent

@@ -9,10 +9,27 @@ from typing import Any
 
 k_integrators = {
     # identifier: (label, description, stable number in .blend files, engine name)
-    "PTPPM": ("Path Tracing + Photons", "Path tracing for all light except caustics, photons for the caustics", 0,
-              "ptppm"),
-    "PT": ("Path Tracing", "Path tracing alone; caustics of small lamps stay noisy", 1, "path_tracing"),
-    "SPPM": ("Photon Mapping", "Progressive photon mapping for everything but directly visible light", 2, "sppm"),
+    "PTPPM": ("Path Tracing + Photons",
+              "Path tracing for all light, photons for the caustics: clean caustics of every lamp, also in mirrors", 0,
+              "hybrid"),
+    "PT": ("Path Tracing",
+           "Path tracing alone. Caustics of small lamps stay noisy, those of lamps without size are missing", 1,
+           "path_tracing"),
+    "SPPM": ("Photon Mapping",
+             "Photons for all light but lamps that are seen, directly or in mirrors. Mostly to compare", 2,
+             "photon_mapping"),
+}
+
+k_indirect_caustics = {
+    "PHOTONS": ("Photons", "As clean as direct caustics", 0),
+    "PATH_TRACING": ("Path Tracing", "Noisier, but all photons are left to the direct caustics", 1),
+    "OFF": ("Off", "Left out: quicker and a little darker", 2),
+}
+
+k_radius_schedules = {
+    "MEMORYLESS": ("Alike Everywhere",
+                   "By the number of the pass alone, so that machines can share a frame", 0),
+    "PER_PIXEL": ("By Photons Found", "Each pixel's radius shrinks by the photons that it has found", 1),
 }
 
 k_pixel_filters = {
@@ -86,9 +103,36 @@ k_settings = (
     Setting("filter_glossy", "float", "Filter Glossy",
             "Blur sharp reflections seen in rougher ones: less noise, less truth. 0: off",
             1.0, "blur_glossy", "filter_glossy", options={"min": 0.0, "max": 10.0}),
-    Setting("caustic_roughness", "float", "Caustic Roughness",
-            "Reflections and refractions at or under this roughness count as sharp: photons take the light behind them",
-            0.0, None, "caustic_roughness", options={"min": 0.0, "max": 1.0, "subtype": "FACTOR"}),
+    Setting("indirect_caustics", "enum", "Indirect Caustics",
+            "Caustics of light that a rough surface has scattered first: a bright wall seen as a glint under a glass",
+            "PHOTONS", None, "indirect_caustics", k_indirect_caustics),
+    Setting("photons", "int", "Photons",
+            "Photons sent out for each sample of the picture. More: smoother caustics, longer samples, more memory. "
+            "0: chosen by the size of the picture",
+            0, None, "photons", options={"min": 0, "max": 0x7FFFFFFF, "soft_max": 10_000_000}),
+    Setting("photon_radius", "float", "Radius",
+            "How far around it a pixel looks for photons at first, in pixels; the radius shrinks while rendering. "
+            "Smaller: sharper caustics with more noise",
+            2.0, None, "photon_radius", options={"min": 0.01, "max": 1000.0, "soft_min": 0.5, "soft_max": 10.0,
+                                                 "subtype": "PIXEL"}),
+    Setting("caustic_roughness", "float", "Roughness Limit",
+            "Reflections and refractions up to this roughness throw their caustics by photons, rougher ones by path "
+            "tracing. Moves work from one to the other, the finished picture stays the same",
+            0.1, None, "caustic_roughness", options={"min": 0.0, "max": 1.0, "subtype": "FACTOR"}),
+    Setting("radius_shrink", "float", "Radius Shrink",
+            "The smaller, the faster the radius shrinks: sharper sooner, smooth later. 1: it stays, and its blur too",
+            0.6666667, None, "radius_shrink", options={"min": 0.01, "max": 1.0, "subtype": "FACTOR"}),
+    Setting("radius_schedule", "enum", "Radius Schedule", "What makes the radius shrink",
+            "MEMORYLESS", None, "radius_schedule", k_radius_schedules),
+    Setting("guided_emission", "bool", "Guide Photons",
+            "Learn in the first passes which photons reach the picture as caustics, and send out more of these",
+            True, None, "guided_emission"),
+    Setting("blend_caustic_hits", "bool", "Blend with Path Tracing",
+            "Use the caustics that path tracing finds too, each where it is better. Helps with large lamps and skies",
+            True, None, "blend_caustic_hits"),
+    Setting("physical_refraction", "bool", "Physical Refraction",
+            "Radiance changes where light enters glass or water, as in nature. Off: as in Cycles",
+            False, None, "physical_refraction"),
     Setting("pixel_filter", "enum", "Type", "How samples between pixels are weighed",
             "BLACKMAN_HARRIS", "pixel_filter_type", "pixel_filter", k_pixel_filters),
     Setting("filter_width", "float", "Width", "Width of the pixel filter; wider is softer",

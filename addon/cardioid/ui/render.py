@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Render Properties: Sampling, Light Paths, Film, Performance."""
+"""Render Properties: Sampling, Light Paths, Caustics (caustics.py), Film, Performance."""
 
 from __future__ import annotations
 
 import bpy
 
 from .. import core
+from . import caustics
 from .common import (
     CardioidPanel,
     k_engine,
@@ -91,21 +92,8 @@ class CARDIOID_RENDER_PT_clamping(CardioidPanel, bpy.types.Panel):
         settings = context.scene.cardioid
         setting(column, settings, "clamp_direct")
         setting(column, settings, "clamp_indirect")
-
-
-class CARDIOID_RENDER_PT_caustics(CardioidPanel, bpy.types.Panel):
-    bl_label = "Caustics"
-    bl_parent_id = "CARDIOID_RENDER_PT_light_paths"
-
-    def draw(self, context):
-        layout = split(self.layout)
-        settings = context.scene.cardioid
-        setting(layout, settings, "filter_glossy")
-        column = layout.column(heading="Caustics", align=True)
-        setting(column, settings, "reflective_caustics")
-        setting(column, settings, "refractive_caustics")
         if settings.integrator != "PT":
-            layout.prop(settings, "caustic_roughness")
+            wrapped(column, "Light that photons bring is never clamped", "INFO")
 
 
 class CARDIOID_RENDER_PT_film(CardioidPanel, bpy.types.Panel):
@@ -184,7 +172,7 @@ class CARDIOID_RENDER_PT_memory(CardioidPanel, bpy.types.Panel):
 
 _classes = (
     CARDIOID_RENDER_PT_sampling, CARDIOID_RENDER_PT_sampling_advanced, CARDIOID_RENDER_PT_light_paths,
-    CARDIOID_RENDER_PT_bounces, CARDIOID_RENDER_PT_clamping, CARDIOID_RENDER_PT_caustics, CARDIOID_RENDER_PT_film,
+    CARDIOID_RENDER_PT_bounces, CARDIOID_RENDER_PT_clamping, *caustics.k_classes, CARDIOID_RENDER_PT_film,
     CARDIOID_RENDER_PT_transparent, CARDIOID_RENDER_PT_pixel_filter, CARDIOID_RENDER_PT_performance,
     CARDIOID_RENDER_PT_threads, CARDIOID_RENDER_PT_memory)
 

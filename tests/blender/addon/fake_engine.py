@@ -16,7 +16,9 @@ behaviour = SimpleNamespace()
 scenes: list[Scene] = []
 sessions: list[Session] = []
 
-k_channels = {"Combined": 4, "Depth": 1, "Normal": 3, "D1": 3, "D2": 3, "D3": 3}
+k_channels = {"Combined": 4, "Depth": 1, "Normal": 3, "D1": 3, "D2": 3, "D3": 3, "C1": 3, "C2": 3}
+k_blue = {"Normal": 1, "D1": 10, "D2": 20, "D3": 30, "C1": 40, "C2": 50}
+k_emitted, k_stored = 250_000, 37_500  # photons of a sample
 
 
 def reset() -> None:
@@ -25,6 +27,7 @@ def reset() -> None:
     behaviour.fail = ""                # message of a render that fails
     behaviour.refuse = []              # problems of a scene that cannot be rendered
     behaviour.warnings = []
+    behaviour.integrators = ["PTPPM", "PT", "SPPM"]
     behaviour.whole_frame = False      # pictures of the whole frame although a crop was asked for
     behaviour.on_sample = None         # called with the session after each sample
     scenes.clear()
@@ -38,7 +41,7 @@ class Error(Exception):
 
 
 def integrators():
-    return ["PT"]
+    return list(behaviour.integrators)
 
 
 def version():
@@ -91,7 +94,7 @@ class Frame:
         picture = np.empty((self.height, self.width, k_channels[name]), np.float32)
         picture[..., 0] = (x + 0.5) / self.width
         picture[..., 1] = (y + 0.5) / self.height
-        picture[..., 2] = {"Combined": self.samples, "Normal": 1, "D1": 10, "D2": 20, "D3": 30}[name]
+        picture[..., 2] = self.samples if name == "Combined" else k_blue[name]
         if picture.shape[2] == 4:
             picture[..., 3] = 1
         return picture
@@ -127,7 +130,14 @@ class Session:
         elapsed = time.monotonic() - self._start
         return {"phase": self._phase, "fraction": self._samples / total, "samples": self._samples,
                 "total_samples": total, "elapsed": elapsed, "remaining": 43.0, "memory_bytes": 512 << 20,
-                "message": behaviour.fail if self._phase == "failed" else "", "revision": self._samples}
+                "message": behaviour.fail if self._phase == "failed" else "", "revision": self._samples,
+                **self._photon_progress()}
+
+    def _photon_progress(self):
+        if self.settings["integrator"] == "path_tracing":
+            return {"passes": 0, "photons_emitted": 0, "photons_stored": 0}
+        return {"passes": self._samples // 2, "photons_emitted": self._samples * k_emitted,
+                "photons_stored": self._samples * k_stored}
 
     def frame(self):
         if self._samples == 0:
@@ -140,7 +150,15 @@ class Session:
         return list(behaviour.warnings)
 
     def stats(self):
-        return {"samples": self._samples, "seconds": time.monotonic() - self._start}
+        told = {"samples": self._samples, "seconds": {"render": time.monotonic() - self._start},
+                "counts": {"non_finite_dropped": 0}, "bytes": {"film": 1 << 20}}
+        if self.settings["integrator"] != "path_tracing":
+            told["photons"] = {"passes": self._samples // 2, "skipped_passes": 0, "training_passes": 1,
+                               "emitted": self._samples * k_emitted, "stored": self._samples * k_stored,
+                               "gathered": 12_345_678, "rays": 3_000_000, "per_sample": k_emitted}
+            told["seconds"].update(photon_trace=1.25, photon_index=0.5, camera=7.75)
+            told["bytes"]["photons"] = 3 << 20
+        return told
 
     def _render(self):
         self._cancel.wait(behaviour.build_seconds)

@@ -78,11 +78,14 @@ def test_passes(addon, render):
     layer = bpy.context.view_layer
     layer.use_pass_z = layer.use_pass_normal = True
     layer.cardioid.use_pass_d1 = layer.cardioid.use_pass_d3 = True
+    layer.cardioid.use_pass_c1 = layer.cardioid.use_pass_c2 = True
     channels = render()
     assert channels["ViewLayer.Depth.Z"][2, 3] == 5
     np.testing.assert_allclose(channels["ViewLayer.Normal.X"][0, 0], 0.5 / 40, atol=1e-6)
     assert (channels["ViewLayer.Normal.Z"] == 1).all()
     assert (channels["ViewLayer.Cardioid D1.B"] == 10).all() and (channels["ViewLayer.Cardioid D3.B"] == 30).all()
+    assert (channels["ViewLayer.Cardioid C1.R"] == channels["ViewLayer.Cardioid D1.R"]).all()
+    assert (channels["ViewLayer.Cardioid C1.B"] == 40).all() and (channels["ViewLayer.Cardioid C2.B"] == 50).all()
     assert not any("D2" in name for name in channels)
 
 
@@ -90,7 +93,7 @@ def test_passes_reach_the_compositor(addon):
     """update_render_passes: the sockets are there before the first render."""
     scene, layer = bpy.context.scene, bpy.context.view_layer
     layer.use_pass_z = True
-    layer.cardioid.use_pass_d2 = True
+    layer.cardioid.use_pass_d2 = layer.cardioid.use_pass_c1 = True
     layer.update_render_passes()
     if hasattr(scene, "node_tree"):
         scene.use_nodes = True
@@ -100,8 +103,10 @@ def test_passes_reach_the_compositor(addon):
         scene.compositing_node_group = tree
     node = tree.nodes.new("CompositorNodeRLayers")
     enabled = {socket.name for socket in node.outputs if socket.enabled}
-    assert {"Image", "Depth", "Cardioid D2"} <= enabled
-    assert "Cardioid D1" not in enabled
+    assert {"Image", "Depth", "Cardioid D2", "Cardioid C1"} <= enabled
+    assert not {"Cardioid D1", "Cardioid C2"} & enabled
+    layer.cardioid.use_pass_c2 = True  # the switch alone is enough
+    assert "Cardioid C2" in {socket.name for socket in node.outputs if socket.enabled}
 
 
 def test_two_view_layers(addon, render, fake):
@@ -159,3 +164,17 @@ def test_metadata(addon, render, tmp_path):
     assert stamped["cardioid.ViewLayer.samples"] == "4"
     assert stamped["cardioid.ViewLayer.seed"] == "17"
     assert float(stamped["cardioid.ViewLayer.render_time"]) >= 0
+    photons = {name.removeprefix("cardioid.ViewLayer."): text for name, text in stamped.items()
+               if name.startswith("cardioid.ViewLayer.")}
+    assert photons | {
+        "integrator": "hybrid", "photons.passes": "2", "photons.emitted": "1000000", "photons.stored": "150000",
+        "photons.stored_share": "0.150000", "photons.gathered": "12345678", "seconds.photon_trace": "1.250",
+        "seconds.photon_index": "0.500", "seconds.camera": "7.750", "bytes.photons": "3145728"} == photons
+
+
+def test_path_tracing_has_no_photons_in_its_metadata(addon, render, tmp_path):
+    bpy.context.scene.cardioid.integrator = "PT"
+    render("stamped")
+    stamped = pictures.metadata(tmp_path / "stamped.exr")
+    assert stamped["cardioid.ViewLayer.integrator"] == "path_tracing"
+    assert not [name for name in stamped if "photon" in name]

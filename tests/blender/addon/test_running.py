@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 
@@ -115,18 +116,25 @@ def test_progress_text(addon, fake, status):
     fake.behaviour.build_seconds = 0.1
     bpy.ops.render.render()
     assert status[0] == "Exporting the scene"
-    running = [text for text in status if "Remaining" in text]
-    assert running and running[0].startswith("Sample ") and "/128 | Remaining 00:43 | Mem 512M" in running[0]
-    assert status[-1].startswith("Sample 128/128") and len(status) < 40
+    running = [text for text in status if "Remaining" in text and "Pass" in text]
+    assert running and re.fullmatch(r"Sample \d+/128 · Pass \d+ · photons [\d.]+ [kM] stored of [\d.]+ [kM] · "
+                                    r"Remaining 0:43 · Mem 512M", running[0]), status
+    assert status[-1] == "Sample 128/128 · Pass 64 · photons 4.8 M stored of 32 M · Mem 512M" and len(status) < 40
 
 
 def test_words(addon):
     from cardioid import progress
 
-    assert progress.duration(43.2) == "00:43" and progress.duration(7261) == "2:01:01"
+    assert progress.duration(43.2) == "0:43" and progress.duration(7261) == "2:01:01"
+    assert [progress.count(number) for number in (0, 999, 1000, 8_140, 81_400, 999_600, 8.1e6, 1.23e9)] == [
+        "0", "999", "1.0 k", "8.1 k", "81 k", "1.0 M", "8.1 M", "1.2 G"]
     assert progress.memory(512 << 20) == "512M" and progress.memory(20 << 30) == "20.0G"
     assert progress.line({"phase": "build", "message": "Building BVH"}) == "Building BVH"
     assert progress.line({}) == ""
+    running = {"phase": "render", "samples": 12, "total_samples": 128, "remaining": 43.0}
+    assert progress.line(running) == "Sample 12/128 · Remaining 0:43"
+    assert progress.line({**running, "passes": 5, "photons_emitted": 8_100_000, "photons_stored": 1_200_000}) == (
+        "Sample 12/128 · Pass 5 · photons 1.2 M stored of 8.1 M · Remaining 0:43")
 
 
 def test_warnings_once_in_a_job(addon, fake, reports, tmp_path):

@@ -132,43 +132,87 @@ def test_names_that_scripts_rely_on(settings):
         assert settings.bl_rna.properties[name].description, name
 
 
-def test_only_integrators_that_exist_are_offered(settings):
-    with pytest.raises(TypeError, match="PTPPM"):
-        settings.integrator = "PTPPM"
-    assert settings.integrator == "PT"
+def test_ptppm_is_the_default(settings):
+    assert settings.integrator == "PTPPM"
+    assert resolved()["integrator"] == "hybrid"
 
 
-def test_ptppm_is_the_default_once_the_engine_has_it(fresh_file, fake, monkeypatch):
+def test_only_integrators_that_exist_are_offered(fresh_file, fake):
     import cardioid
 
-    monkeypatch.setattr(fake, "integrators", lambda: ["PTPPM", "PT", "SPPM"])
     cardioid.register()
     try:
-        assert bpy.context.scene.cardioid.integrator == "PTPPM"
         bpy.context.scene.cardioid.integrator = "SPPM"
-        assert resolved()["integrator"] == "sppm"
+        assert resolved()["integrator"] == "photon_mapping"
     finally:
         cardioid.unregister()
-    monkeypatch.undo()
+    fake.behaviour.integrators = ["PT"]
     cardioid.core.forget()
     cardioid.register()
     try:  # the file still says SPPM
         with pytest.raises(ValueError, match="choose another"):
             resolved()
+        with pytest.raises(TypeError, match="PTPPM"):
+            bpy.context.scene.cardioid.integrator = "PTPPM"
+        bpy.context.scene.cardioid.integrator = "PT"
+        assert resolved()["integrator"] == "path_tracing"
     finally:
         cardioid.unregister()
 
 
-def test_every_key_of_the_engines_settings(settings):
+def engine_defaults():
+    """Field of the engine's Settings to its default as it is written in C++ ("" without one)."""
     text = k_scene_desc.read_text()
     body = re.search(r"struct Settings \{(.*?)\n\};", text, re.S).group(1)
     body = re.sub(r"//.*", "", body)
-    fields = set()
+    fields = {}
     for statement in body.split(";"):
         declaration = re.sub(r"\{[^}]*\}", "", statement).strip()
         if declaration:
             names = re.sub(r"^[\w:]+(<[^>]*>)?\s+", "", declaration)
-            fields |= {re.match(r"\s*(\w+)", part).group(1) for part in names.split(",")}
+            fields.update(re.match(r"\s*(\w+)(?:\s*=\s*(\S+))?", part).groups("") for part in names.split(","))
+    return fields
+
+
+def test_own_settings_have_the_engines_defaults(settings):
+    """Settings that follow Cycles have Cycles' defaults instead (test_default_is_cycles_default)."""
+    from cardioid.settings_table import k_settings
+
+    written = engine_defaults()
+    own = [setting for setting in k_settings if setting.cycles is None and setting.key]
+    assert {"photons", "photon_radius", "caustic_roughness", "indirect_caustics", "guided_emission"} <= {
+        setting.name for setting in own}
+    for setting in own:
+        text = written[setting.key]
+        if setting.kind == "enum":
+            assert text.split("::")[-1] == setting.default.lower(), setting.name
+        elif setting.kind == "bool":
+            assert text == str(setting.default).lower(), setting.name
+        else:
+            assert float(text.rstrip("f")) == pytest.approx(setting.default, rel=1e-6), setting.name
+        assert getattr(settings, setting.name) == (
+            pytest.approx(setting.default, rel=1e-6) if setting.kind == "float" else setting.default)
+
+
+def test_caustics_settings_reach_the_engine(settings):
+    settings.indirect_caustics, settings.radius_schedule = "PATH_TRACING", "PER_PIXEL"
+    settings.photons, settings.photon_radius, settings.caustic_roughness = 123456, 3.5, 0.25
+    settings.radius_shrink, settings.guided_emission = 0.5, False
+    settings.blend_caustic_hits, settings.physical_refraction = False, True
+    wanted = {"indirect_caustics": "path_tracing", "radius_schedule": "per_pixel", "photons": 123456,
+              "photon_radius": 3.5, "caustic_roughness": 0.25, "radius_shrink": 0.5, "guided_emission": False,
+              "blend_caustic_hits": False, "physical_refraction": True}
+    for integrator in ("PTPPM", "SPPM"):
+        settings.integrator = integrator
+        told = resolved()
+        assert {key: told[key] for key in wanted} == wanted
+    settings.integrator = "PT"
+    assert resolved()["caustic_roughness"] == 0
+    assert resolved(overrides={"integrator": "SPPM"})["caustic_roughness"] == 0.25
+
+
+def test_every_key_of_the_engines_settings(settings):
+    fields = set(engine_defaults())
     assert {"integrator", "max_glossy_bounces", "clamp_indirect", "ocio_config"} <= fields
     by_exporter = {"width", "height", "crop"}
     assert set(resolved()) == fields - by_exporter
