@@ -21,7 +21,11 @@ struct PhotonRay {
                ///< it multiplies that program's emission
     Float density;  ///< of the ray per m² and projected sr (m² across the direction per sr), given the emitter;
                     ///< delta lamps: per sr, nothing can hit them
-    Mask valid;     ///< false: no light goes this way
+    /// Where the photon's first hit counts, as distances from the origin; [0, 1e30] for most. A photon that hits something
+    /// nearer or farther ends there and leaves nothing: the inside of a sphere lamp has photons of its own, and close to a lamp
+    /// that is a facing disk only some of its rays are there. Emission looks exactly like sample_light from everywhere.
+    Float t_min, t_max;
+    Mask valid;  ///< false: no light goes this way, or nothing is there to be hit
     Int program, instance, triangle;     ///< as LightSample's
     Float barycentric_u, barycentric_v;  ///< as LightSample's
     Int visibility, max_bounces;         ///< scene::Visibility bits of the lamp or world
@@ -32,7 +36,7 @@ struct PhotonRay {
 PhotonRay emit_photon(const light::LightData& lights, Int emitter, Vec2 u_point, Vec2 u_direction, Mask active);
 
 /// PhotonRay::density of the ray that a camera path has met from the other end: it hit lamp `id`, travelling along
-/// the unit direction d through p (any point of the ray). 0: emit_photon never makes it.
+/// the unit direction d from p (any point of the ray up to the lamp). 0: emit_photon never makes it.
 Float lamp_emission_density(const light::LightData& lights, int id, Vec3 p, Vec3 d, Mask active);
 /// Of a hit on emissive triangle (instance, triangle); 0 where it is not in the table. `emitter`: its id, -1 where there is none.
 Float triangle_emission_density(const light::LightData& lights, Int instance, Int triangle, Int& emitter, Mask active);

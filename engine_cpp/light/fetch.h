@@ -2,6 +2,7 @@
 // Reads of one record per lane. Lanes often want the same record (one lamp, the top of a tree): then it is a broadcast.
 #pragma once
 
+#include "light/light_data.h"
 #include "simd/vec.h"
 
 namespace cardioid::CD_ISA_NS {
@@ -32,6 +33,17 @@ inline Vec3 fetch3(const float* p, RecordIndex at, int field) {
 }
 inline Spectrum fetch_rgb(const float* p, RecordIndex at, int field) {
     return {fetch(p, at, field), fetch(p, at, field + 1), fetch(p, at, field + 2)};
+}
+
+/// Emitter id of a triangle of the scene, -1 where it is not in the table.
+inline Int triangle_emitter(const light::LightData& lights, Int instance, Int triangle, Mask active) {
+    active &= (instance >= Int(0)) & (instance < Int(lights.instance_count)) & (triangle >= Int(0));
+    if (none(active)) return Int(-1);
+    const RecordIndex place = record_index(instance, 1, active);
+    active &= triangle < fetch(lights.triangle_span, place, 0);
+    if (none(active)) return Int(-1);
+    const Int entry = fetch(lights.triangle_base, place, 0) + triangle;
+    return select(active, fetch(lights.triangle_emitter, record_index(entry, 1, active), 0), Int(-1));
 }
 
 }  // namespace cardioid::CD_ISA_NS

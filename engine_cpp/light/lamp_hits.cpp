@@ -48,8 +48,7 @@ void hit_sun(const LightData& lights, RecordIndex index, Vec3 d, Int flags, Mask
     h.hit = active & (0.5f * length_squared(d - toward) <= limit);
     h.t = k_infinity;
     h.pdf = cone_pdf(limit);
-    const Float c = max(dot(d, toward), 1e-4f);
-    h.radiance = h.radiance * select((flags & Int(lamp::legacy_sun)) != Int(0), 1.0f / (c * c * c), Float(1.0f));
+    h.radiance = h.radiance * sun_factor(lights, index, flags, d);
     h.normal = -d;
 }
 

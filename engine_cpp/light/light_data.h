@@ -57,6 +57,28 @@ enum IntField { kind = 0, program = 1, flags = 2, visibility = 3, max_bounces = 
 inline constexpr int k_lamp_floats = 24;
 inline constexpr int k_lamp_ints = 8;
 
+/// How a point or spot lamp (any size) sends photons: directions in a cone around `axis`, in coordinates x = (1 - cos)/one_minus_cos
+/// and y = azimuth / 2 pi, both in [0, 1]; azimuth 0 is along `tangent`. The rectangle [x0, x1] × [1/2 - half_y, 1/2 + half_y]
+/// holds the casters and half of the photons; the whole square, where nothing is aimed.
+namespace emission {
+enum Field {
+    axis = 0,     ///< 3
+    tangent = 3,  ///< 3
+    one_minus_cos = 6,
+    x0 = 7,
+    x1 = 8,
+    half_y = 9,
+    density_in = 10,    ///< of (x, y), in the rectangle
+    density_out = 11,   ///< in the rest
+    mass_below = 12,    ///< probability of x < x0
+    mass_between = 13,  ///< of x0 <= x <= x1
+    mass_side = 14,     ///< of y under the rectangle, and again over it, given that x is between
+};
+/// Share of the photons of a sphere that fill its inside.
+inline constexpr float k_inside_share = 1.0f / 16;
+}  // namespace emission
+inline constexpr int k_emission_floats = 16;
+
 /// Triangle record: p0, edges p1-p0 and p2-p0, radiance, unit normal, area.
 namespace triangle {
 enum Field { origin = 0, edge1 = 3, edge2 = 6, radiance = 9, normal = 12, area = 15 };
@@ -118,8 +140,11 @@ struct LightData {
     Sphere scene;    ///< around everything; infinite emitters send photons through its cross section
     Sphere casters;  ///< around the instances with specular lobes; radius 0: none are known, nothing is aimed
     int emitter_count = 0;
-    /// Per emitter: flux toward the casters, roughly (W); 0: sends no photons. For choosing emitters at the start.
+    /// Per emitter (the last one is the world, sampled or not): flux toward the casters, roughly (W); 0: sends no photons. For choosing
+    /// emitters at the start.
     const float* emission_power = nullptr;
+    const float* lamp_emission = nullptr;  ///< k_emission_floats per lamp
+    float scene_low[3] = {0, 0, 0}, scene_high[3] = {0, 0, 0};  ///< box around everything, a little wider; see `scene`
 
     int lamp_count = 0;
     const float* lamp = nullptr;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/light_table.h"
 
+#include "light/emission_records.h"
 #include "light/environment_map.h"
 #include "light/lamp_boxes.h"
 #include "light/lamp_records.h"
@@ -27,12 +28,14 @@ float mean_absolute(Float3 c) { return (std::fabs(c.x) + std::fabs(c.y) + std::f
 
 struct LightTable::Storage {
     LightData data;
-    std::vector<float> lamp, triangle;
+    std::vector<float> lamp, triangle, lamp_emission, emission_power;
+    EmissionTargets targets;
     std::vector<std::int32_t> lamp_int, triangle_int, leaf_of, hittable, triangle_base, triangle_span, triangle_emitter;
     NodeStorage nodes;
     LampBoxTree boxes;
     EnvironmentMap environment;
 
+    void set_targets(Float3 scene_min, Float3 scene_max, const PhotonTargets& casters);
     void add_lamps(const std::vector<LampInput>& lamps, Float3 scene_min, Float3 scene_max,
                    std::vector<TreeLeaf>& finite, std::vector<TreeLeaf>& suns);
     void add_triangles(const std::vector<EmissiveTriangle>& triangles, std::vector<TreeLeaf>& finite);
@@ -43,6 +46,29 @@ struct LightTable::Storage {
     void set_pointers();
 };
 
+void LightTable::Storage::set_targets(Float3 scene_min, Float3 scene_max, const PhotonTargets& casters) {
+    Float3 low = scene_min, high = scene_max;
+    if (casters.any_casters) {
+        const Float3 a = casters.casters_min, b = casters.casters_max;
+        targets.casters = sphere_around(a, b);
+        low = {std::min(low.x, a.x), std::min(low.y, a.y), std::min(low.z, a.z)};
+        high = {std::max(high.x, b.x), std::max(high.y, b.y), std::max(high.z, b.z)};
+    }
+    targets.scene = sphere_around(low, high);
+    if (!(targets.casters.radius > 0)) targets.casters = {{targets.scene.center[0], targets.scene.center[1], targets.scene.center[2]}, 0};
+    data.scene = targets.scene;
+    data.casters = targets.casters;
+    // Photons that start on the box must start outside of what touches it, whatever rounding does.
+    const float farthest = std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x),
+                                     std::fabs(high.y), std::fabs(high.z)});
+    const float pad = 1e-5f * targets.scene.radius + 1e-6f * farthest;
+    const float lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
+    for (int i = 0; i < 3; ++i) {
+        data.scene_low[i] = lows[i] - pad;
+        data.scene_high[i] = highs[i] + pad;
+    }
+}
+
 void LightTable::Storage::add_lamps(const std::vector<LampInput>& lamps, Float3 scene_min, Float3 scene_max,
                                     std::vector<TreeLeaf>& finite, std::vector<TreeLeaf>& suns) {
     std::vector<LampBox> boxed;
@@ -51,6 +77,10 @@ void LightTable::Storage::add_lamps(const std::vector<LampInput>& lamps, Float3 
         const LampRecord r = make_lamp_record(lamps[static_cast<std::size_t>(i)], scene_min, scene_max);
         lamp.insert(lamp.end(), std::begin(r.value), std::end(r.value));
         lamp_int.insert(lamp_int.end(), std::begin(r.number), std::end(r.number));
+        const EmissionRecord emission = make_emission_record(r, targets.casters);
+        lamp_emission.insert(lamp_emission.end(), std::begin(emission.value), std::end(emission.value));
+        emission_power.push_back(
+            lamp_emission_power(lamps[static_cast<std::size_t>(i)], r, emission, targets));
         if (r.bounds.energy > 0) (r.at_infinity() ? suns : finite).push_back({r.bounds, i});
         if (r.hittable && r.at_infinity()) hittable.push_back(i);
         if (r.hittable && !r.at_infinity()) boxed.push_back({r.box_lower, r.box_upper, i});
@@ -79,7 +109,9 @@ void LightTable::Storage::add_triangles(const std::vector<EmissiveTriangle>& tri
 
         EmitterBounds bounds;
         bounds.energy = mean_absolute(t.radiance) * area;
-        if (!(bounds.energy > 0) || !std::isfinite(bounds.energy) || !(area > 1e-30f)) continue;
+        const bool shines = bounds.energy > 0 && std::isfinite(bounds.energy) && area > 1e-30f;
+        emission_power.push_back(shines ? triangle_emission_power(t, area) : 0);
+        if (!shines) continue;
         for (const Float3 p : {t.p0, t.p1, t.p2}) extend(bounds, p);
         bounds.axis = n;
         bounds.theta_o = t.two_sided ? k_pi : 0;
@@ -133,6 +165,7 @@ void LightTable::Storage::add_world(const WorldInput& world) {
     out.width = environment.width;
     out.height = environment.height;
     bounds.lower = bounds.upper = {0, 0, 0};
+    emission_power.back() = world_emission_power(bounds.energy / k_pi, targets);
     add_entry(nodes.add(bounds, out.emitter, -1), true);
 }
 
@@ -152,6 +185,9 @@ void LightTable::Storage::set_pointers() {
         const std::int32_t child = nodes.child[static_cast<std::size_t>(node)];
         if (child < 0 && ~child != k_no_emitter) leaf_of[static_cast<std::size_t>(~child)] = node;
     }
+    data.emitter_count = data.lamp_count + data.triangle_count + 1;
+    data.emission_power = emission_power.data();
+    data.lamp_emission = lamp_emission.data();
     data.lamp = lamp.data();
     data.lamp_int = lamp_int.data();
     data.triangle = triangle.data();
@@ -175,15 +211,17 @@ void LightTable::Storage::set_pointers() {
 
 LightTable::LightTable(const std::vector<LampInput>& lamps, const std::vector<EmissiveTriangle>& triangles,
                        const WorldInput* world, Float3 scene_min, Float3 scene_max, const Checkpoint& checkpoint,
-                       const PhotonTargets& /*targets*/)
+                       const PhotonTargets& targets)
     : storage_(std::make_unique<Storage>()) {
     std::vector<TreeLeaf> finite, suns;
+    storage_->set_targets(scene_min, scene_max, targets);
     storage_->add_lamps(lamps, scene_min, scene_max, finite, suns);
     storage_->add_triangles(triangles, finite);
     if (checkpoint) checkpoint();
     storage_->add_triangle_lookup(triangles);
     storage_->add_tree(finite, checkpoint);
     storage_->add_tree(suns, checkpoint);
+    storage_->emission_power.push_back(0);
     if (world != nullptr) storage_->add_world(*world);
     storage_->set_pointers();
 }
@@ -198,7 +236,8 @@ bool LightTable::empty() const { return storage_->data.entry_count == 0; }
 
 std::int64_t LightTable::memory_bytes() const {
     const Storage& s = *storage_;
-    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.triangle) + bytes(s.triangle_int) + bytes(s.leaf_of) +
+    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.lamp_emission) +
+           bytes(s.emission_power) + bytes(s.triangle) + bytes(s.triangle_int) + bytes(s.leaf_of) +
            bytes(s.hittable) + bytes(s.triangle_base) + bytes(s.triangle_span) + bytes(s.triangle_emitter) +
            bytes(s.nodes.record) + bytes(s.nodes.child) + bytes(s.nodes.parent) + bytes(s.boxes.box) +
            bytes(s.boxes.first) + bytes(s.boxes.count) + bytes(s.boxes.lamps) + bytes(s.environment.conditional) +

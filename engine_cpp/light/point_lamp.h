@@ -22,6 +22,13 @@ inline Float spot_attenuation(const light::LightData& lights, RecordIndex index,
     return select((flags & Int(lamp::is_spot)) != Int(0), select(cosine, smooth * z, smooth), Float(1.0f));
 }
 
+/// Radiance of a sun before Blender 4.0 grows toward its edge: there it is a flat disk.
+inline Float sun_factor(const light::LightData& lights, RecordIndex index, Int flags, Vec3 wi) {
+    namespace lamp = light::lamp;
+    const Float c = max(dot(wi, fetch3(lights.lamp, index, lamp::position)), 1e-4f);
+    return select((flags & Int(lamp::legacy_sun)) != Int(0), 1.0f / (c * c * c), Float(1.0f));
+}
+
 struct SeenBall {
     Vec3 to_center, toward;  ///< toward: unit
     Float d2, distance, r2;

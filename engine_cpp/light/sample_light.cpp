@@ -66,12 +66,6 @@ void sample_delta_point(const LightData& lights, RecordIndex index, LightReceive
     set_value(s, lanes, intensity, 1.0f, (factor > Float(0.0f)) & (d2 > Float(1e-30f)));
 }
 
-/// Radiance of a sun before Blender 4.0 grows toward its edge: there it is a flat disk.
-Float sun_factor(const LightData& lights, RecordIndex index, Int flags, Vec3 wi) {
-    const Float c = max(dot(wi, fetch3(lights.lamp, index, lamp::position)), 1e-4f);
-    return select((flags & Int(lamp::legacy_sun)) != Int(0), 1.0f / (c * c * c), Float(1.0f));
-}
-
 void sample_sun(const LightData& lights, RecordIndex index, Vec2 u, Int flags, Mask lanes, LightSample& s) {
     const Vec3 toward = fetch3(lights.lamp, index, lamp::position);
     const Float one_minus_cos = fetch(lights.lamp, index, lamp::sun_one_minus_cos);
@@ -195,13 +189,7 @@ LightSample sample_light(const LightData& lights, LightReceiver at, Vec2 u, Mask
 
 Float pdf_triangle(const LightData& lights, LightReceiver at, Int instance, Int triangle_index, Vec3 hit,
                    Vec3 hit_normal, Mask active) {
-    active &= (instance >= Int(0)) & (instance < Int(lights.instance_count)) & (triangle_index >= Int(0));
-    if (none(active)) return 0.0f;
-    const RecordIndex place = record_index(instance, 1, active);
-    active &= triangle_index < fetch(lights.triangle_span, place, 0);
-    if (none(active)) return 0.0f;
-    const Int entry = fetch(lights.triangle_base, place, 0) + triangle_index;
-    const Int emitter = fetch(lights.triangle_emitter, record_index(entry, 1, active), 0);
+    const Int emitter = triangle_emitter(lights, instance, triangle_index, active);
     active &= emitter >= Int(0);
     if (none(active)) return 0.0f;
     const Int id = emitter - Int(lights.lamp_count);
