@@ -1,19 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Range queries. Header only: the kernels of every lane width compile it.
+// Range queries. Header only: the kernels of every lane width compile it. Nothing in it is shared between them by the linker.
 #pragma once
 
 #include "photon/photon.h"
 
 namespace cardioid::photon {
 
-/// Calls visit(index into view.photons) for every photon within `radius` of the point (closed ball), in the order of the index:
-/// the same for every thread and run. Never allocates.
+namespace detail {
+
+/// Coordinate in finest cells. Monotone: what is between two points is between their coordinates, whatever the rounding.
+[[gnu::always_inline]] inline std::uint32_t to_cells(double offset, double scale) {
+    const double v = offset * scale;
+    return v > 0 ? (v < 4294967295.0 ? static_cast<std::uint32_t>(v) : 4294967295u) : 0u;
+}
+
+/// Octants of the cell at `corner` that the box of cells [low, high] overlaps; `half` is the edge of an octant.
+[[gnu::always_inline]] inline std::uint32_t overlapped(const std::uint32_t (&corner)[3], std::uint32_t half,
+                                                       const std::uint32_t (&low)[3], const std::uint32_t (&high)[3]) {
+    const std::uint32_t x = corner[0] + half, y = corner[1] + half, z = corner[2] + half;
+    const std::uint32_t in_x = (low[0] < x ? 0x55u : 0u) | (high[0] >= x ? 0xaau : 0u);
+    const std::uint32_t in_y = (low[1] < y ? 0x33u : 0u) | (high[1] >= y ? 0xccu : 0u);
+    const std::uint32_t in_z = (low[2] < z ? 0x0fu : 0u) | (high[2] >= z ? 0xf0u : 0u);
+    return in_x & in_y & in_z;
+}
+
+}  // namespace detail
+
+/// Calls visit(index into view.photons) for every photon within `radius` of the point (closed ball), in ascending order: the
+/// same for every thread and run. Never allocates. A negative radius finds nothing.
 template <class Visit>
 inline void for_each_photon(const PhotonMapView& view, const float (&center)[3], float radius, Visit&& visit) {
-    for (std::int64_t i = 0; i < view.count; ++i) {
-        const float* p = view.photons[i].position;
-        const float x = p[0] - center[0], y = p[1] - center[1], z = p[2] - center[2];
-        if (x * x + y * y + z * z <= radius * radius) visit(static_cast<std::int32_t>(i));
+    if (view.count == 0 || !(radius >= 0)) return;
+    // The slack covers the rounding of the distance in float.
+    const double reach = static_cast<double>(radius) * 1.000001;
+    std::uint32_t low[3], high[3], widest = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double lower = static_cast<double>(center[k]) - reach, upper = static_cast<double>(center[k]) + reach;
+        if (lower > static_cast<double>(view.upper[k]) || upper < view.lower[k]) return;
+        low[k] = detail::to_cells(lower - view.lower[k], view.scale);
+        high[k] = detail::to_cells(upper - view.lower[k], view.scale);
+        widest = high[k] - low[k] > widest ? high[k] - low[k] : widest;
+    }
+    // Cells of a quarter of the box or less are not worth opening: their photons are tested in one run.
+    const int smallest = widest >= 4 ? 29 - __builtin_clz(widest) : -1;
+
+    const float radius2 = radius * radius;
+    std::uint32_t corner[3] = {};
+    std::uint32_t open[32], parent[32];  // by the logarithm of the children's edge
+    std::uint32_t at = 0;
+    int level = 32;
+    for (;;) {
+        const PhotonCell& cell = view.cells[at];
+        if (cell.octants == 0 || level <= smallest) {
+            for (std::uint32_t i = cell.begin; i < cell.end; ++i) {
+                const float x = view.x[i] - center[0], y = view.y[i] - center[1], z = view.z[i] - center[2];
+                if (x * x + y * y + z * z <= radius2) visit(static_cast<std::int32_t>(i));
+            }
+        } else {
+            --level;
+            parent[level] = at;
+            open[level] = cell.octants & detail::overlapped(corner, 1u << level, low, high);
+        }
+        while (level < 32 && open[level] == 0) ++level;
+        if (level == 32) return;
+        const auto octant = static_cast<std::uint32_t>(__builtin_ctz(open[level]));
+        open[level] &= open[level] - 1;
+        const PhotonCell& from = view.cells[parent[level]];
+        at = from.children + static_cast<std::uint32_t>(__builtin_popcount(from.octants & ((1u << octant) - 1)));
+        const std::uint32_t kept = ~((2u << level) - 1);
+        for (std::uint32_t k = 0; k < 3; ++k) corner[k] = (corner[k] & kept) | ((octant >> k & 1u) << level);
     }
 }
 

@@ -6,8 +6,8 @@
 
 namespace cardioid::photon {
 
-/// r² of sample `index` (0, 1, …) over r² of sample 0: Π_{j=1}^{index} (j + alpha)/(j + 1), through log-gammas, so that any index
-/// costs the same. 1 for alpha 1.
+/// r² of sample `index` (0, 1, …) over r² of sample 0: Π_{j=1}^{index} (j + alpha)/(j + 1). The cost does not grow with the
+/// index. 1 for alpha 1.
 double memoryless_scale(std::int64_t index, double alpha);
 
 inline constexpr int k_photon_classes = 4;
