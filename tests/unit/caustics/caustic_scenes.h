@@ -9,22 +9,28 @@
 
 namespace cardioid::test {
 
-/// One comparison of photons with path tracing; samples and photons are chosen for the intervals that the tests ask for.
+/// One comparison of photons with path tracing; samples and photons are chosen for the intervals that tests ask for.
 struct CausticCase {
     std::string name;
     scene::SceneDesc scene;
-    int path_samples = 512;        ///< of path tracing
-    int photon_samples = 128;      ///< camera paths a pixel of the other two
-    std::int64_t photons = 4000;   ///< emitted for each of them
-    float radius = 0.5f;           ///< first of the two radii, in footprints
-    float finer = 0.70710678f;     ///< second radius over the first: 1/√2 where the bias is quadratic, 1/2 where edges make it linear
-    bool rough = false;            ///< lobes of class S that are no deltas: path tracing classes them otherwise
-    double bound = 0.02;           ///< of whole pictures, relative
-    double block_bound = 0.12;     ///< of each of the 16 blocks, relative to the larger of its own and the picture's mean
+    int path_samples = 512;       ///< of path tracing
+    int photon_samples = 128;     ///< camera paths a pixel of the other two
+    std::int64_t photons = 4000;  ///< emitted for each of them
+    float radius = 0.5f;          ///< first of the two radii, in footprints
+    float finer =
+        0.70710678f;     ///< second radius over the first: 1/√2 for a quadratic bias, 1/2 for the linear one of edges
+    bool rough = false;  ///< lobes of class S that are no deltas: path tracing classes them otherwise
+    double bound = 0.02;        ///< of whole pictures, relative
+    double block_bound = 0.12;  ///< of each of the 16 blocks, relative to the larger of its own and the picture's mean
 };
 
 inline scene::GraphDesc tinted_glass(Float3 c, float ior) {
-    return GraphMaker().node("ShaderNodeBsdfGlass").value("Color", {c.x, c.y, c.z, 1}).value("Roughness", {0}).value("IOR", {ior}).surface("BSDF");
+    return GraphMaker()
+        .node("ShaderNodeBsdfGlass")
+        .value("Color", {c.x, c.y, c.z, 1})
+        .value("Roughness", {0})
+        .value("IOR", {ior})
+        .surface("BSDF");
 }
 
 inline void set_bounces(SceneMaker& m, int n) {
@@ -108,8 +114,7 @@ inline CausticCase pool(bool physical) {
     return caustic_case(physical ? "under water, physical" : "under water", m);
 }
 
-/// Few flat faces that pretend to be round: shading and geometric normals differ by up to 20 degrees, on a ball that makes the caustic
-/// and on one that receives it.
+/// Few flat faces that pretend to be round: shading and geometric normals differ by up to 20 degrees.
 inline CausticCase coarse_ball(bool of_glass) {
     SceneMaker m;
     m.add(floor_quad(0, 8), diffuse(0.6f));

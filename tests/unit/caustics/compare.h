@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two integrators, one picture: renders with different seeds are replicates, means of the whole picture and of 16 blocks are
-// compared by Welch's test, and must be shown to be close (two one-sided tests): what is too noisy to tell fails.
+// Two integrators, one picture: renders with different seeds are replicates, means of the whole picture and of 16 blocks
+// are compared by Welch's test, and must be shown to be close (two one-sided tests): what is too noisy to tell fails.
 #pragma once
 
 #include "analytic/replicates.h"
@@ -119,8 +119,8 @@ struct Agreement {
     double half_width = 0;  ///< of the 98 % interval of their difference, relative
 };
 
-/// Whether `tested` and `judge` are one picture in pass `k` of compared_passes(). `scale`: what bounds are relative to, 0: the
-/// judge's mean.
+/// Whether `tested` and `judge` are one picture in pass `k` of compared_passes(). `scale`: what bounds are relative to,
+/// 0: the judge's mean.
 inline Agreement compare_pass(const Pictures& judge, const Pictures& tested, std::size_t k, double bound,
                               double block_bound, double scale = 0) {
     const auto whole = [&](const Pictures& p) {
@@ -146,8 +146,8 @@ inline Agreement compare_pass(const Pictures& judge, const Pictures& tested, std
         const statistics::TResult bt = statistics::welch_test(bb, ba);
         if (!bt.rejected(level) && bt.equivalent(block_bound * std::max(scale, ba.mean), width)) continue;
         r.agree = false;
-        std::snprintf(line, sizeof line, "\n    block %d: %.5g for %.5g +- %.3g%s", static_cast<int>(i), bb.mean, ba.mean,
-                      bt.half_width(width), bt.rejected(level) ? " differs" : " cannot be told");
+        std::snprintf(line, sizeof line, "\n    block %d: %.5g for %.5g +- %.3g%s", static_cast<int>(i), bb.mean,
+                      ba.mean, bt.half_width(width), bt.rejected(level) ? " differs" : " cannot be told");
         r.report += line;
     }
     return r;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes that lack something, or that are unkind to photons: never a crash, nothing that is not finite, nothing dropped.
+// Scenes that lack something, or that are unkind to photons: no crash, nothing that is not finite, nothing dropped.
 #include "caustics/photon_stats.h"
 
 #include <limits>

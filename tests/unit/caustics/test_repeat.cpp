@@ -109,7 +109,8 @@ TEST(Repeat, EveryLaneWidth) {
     for (const IntegratorKind kind : k_photon_kinds) {
         const SceneMaker m = scene_of(kind);
         const double reference = mean_of(*render_frame(m.scene, 3, 1));
-        for (const int width : {8, 16}) EXPECT_NEAR(mean_of(*render_frame(m.scene, 3, width)) / reference, 1, 0.01) << width;
+        for (const int width : {8, 16})
+            EXPECT_NEAR(mean_of(*render_frame(m.scene, 3, width)) / reference, 1, 0.01) << width;
     }
 }
 
