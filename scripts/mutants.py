@@ -3,8 +3,8 @@
 
 usage: mutants.py [--table FILE] [--work DIR] [--list] [--no-baseline] [--whole] [NAME ...]
 
-Each mutant of the table (tests/mutants/caustics.py) replaces one text that occurs exactly once in one file of the
-engine. The tree is copied to the work directory, the mutant is applied there, what depends on it is built and the tests
+Each mutant of the table (tests/mutants/caustics.py) replaces texts that occur exactly once in one file of the engine.
+The tree is copied to the work directory, the mutant is applied there, what depends on it is built and the tests
 that are to notice it run: they must pass without the mutant and fail with it. --whole runs all tests of the programs.
 """
 
@@ -31,8 +31,7 @@ FAILED = re.compile(r"^\[  FAILED  \] (\S+)(?: \(|,| *$)", re.MULTILINE)
 class Mutant(NamedTuple):
     name: str
     file: str  # below the root
-    old: str  # occurs exactly once
-    new: str
+    edits: list[tuple[str, str]]  # texts that occur exactly once, and what takes their place
     tests: dict[str, str]  # target → GoogleTest filter
 
 
@@ -63,12 +62,14 @@ def load_table(path: Path) -> list[Mutant]:
 
 def mutated(mutant: Mutant, text: str) -> str:
     """The file's text with the mutant in it."""
-    count = text.count(mutant.old)
-    if count != 1:
-        die(f"{mutant.name}: its text occurs {count} times in {mutant.file}; bring the table up to date")
-    if mutant.old == mutant.new:
-        die(f"{mutant.name}: changes nothing")
-    return text.replace(mutant.old, mutant.new)
+    for old, new in mutant.edits:
+        count = text.count(old)
+        if count != 1:
+            die(f"{mutant.name}: occurs {count} times in {mutant.file}, bring the table up to date:\n{old}")
+        if old == new:
+            die(f"{mutant.name}: changes nothing")
+        text = text.replace(old, new)
+    return text
 
 
 def copy_tree(tree: Path) -> None:

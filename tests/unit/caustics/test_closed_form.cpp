@@ -96,8 +96,8 @@ TEST(ClosedForm, TheSlabsCausticInAMirror) {
 
 constexpr float k_bulb_ior = 1.5f;
 
-/// A point of light in a bulb of glass in the middle of a hollow ball of albedo 1/2. No camera path ends at the lamp, and
-/// glass keeps all light: the wall's irradiance is that of the bare lamp times 1/(1 − 1/2), and everything has radiance 1.
+/// A point of light in a bulb of glass in the middle of a hollow ball of albedo 1/2. No camera path ends at the lamp,
+/// and glass keeps all light: the wall's irradiance is that of the bare lamp times 1/(1 − 1/2): all has radiance 1.
 SceneMaker bulb_in_a_ball(IntegratorKind kind, bool hollow) {
     SceneMaker m;
     m.add(sphere({0, 0, 0}, 1, 5, true), diffuse(0.5f));
@@ -121,8 +121,8 @@ TEST(ClosedForm, BulbInABall) {
     }
 }
 
-/// Where lamp and camera are in different media the conventions differ: Cycles does not scale radiance at a surface, so a
-/// lamp in solid glass gives off η² times its watts.
+/// Where lamp and camera are in different media the conventions differ: Cycles does not scale radiance at a surface, so
+/// a lamp in solid glass gives off η² times its watts.
 TEST(ClosedForm, LampInSolidGlass) {
     for (const IntegratorKind kind : k_photon_kinds) {
         for (const bool physical : {false, true}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Path tracing, the hybrid and photon mapping are one picture in expectation, class by class where classes mean the same.
+// Path tracing, the hybrid and photon mapping are one picture in expectation, class by class
+// where classes mean the same.
 #include "caustics/compare.h"
 
 #include <map>

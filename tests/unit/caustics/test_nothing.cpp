@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nothing to catch, nothing to pay: without lobes of class S, or without light, no photon is emitted, passes are skipped.
+// Nothing to catch, nothing to pay: without lobes of class S, or without light, no photon is emitted and
+// passes are skipped.
 #include "caustics/photon_stats.h"
 
 namespace cardioid::test {
