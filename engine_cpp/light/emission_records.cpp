@@ -71,7 +71,8 @@ double sun_irradiance(const LampRecord& r, double brightness) {
 
 /// m² of the cross section that counts: photons aimed at the casters are half of all.
 double cross_section(const EmissionTargets& targets) {
-    const double scene = static_cast<double>(targets.scene.radius), casters = static_cast<double>(targets.casters.radius);
+    const double scene = static_cast<double>(targets.scene.radius),
+                 casters = static_cast<double>(targets.casters.radius);
     const double whole = k_pi * scene * scene;
     return casters > 0 ? std::min(2 * k_pi * casters * casters, whole) : whole;
 }

@@ -25,7 +25,7 @@ struct PhotonRay {
     /// nearer or farther ends there and leaves nothing: the inside of a sphere lamp has photons of its own, and close to a lamp
     /// that is a facing disk only some of its rays are there. Emission looks exactly like sample_light from everywhere.
     Float t_min, t_max;
-    Mask valid;  ///< false: no light goes this way, or nothing is there to be hit
+    Mask valid;                          ///< false: no light goes this way, or nothing is there to be hit
     Int program, instance, triangle;     ///< as LightSample's
     Float barycentric_u, barycentric_v;  ///< as LightSample's
     Int visibility, max_bounces;         ///< scene::Visibility bits of the lamp or world

@@ -18,10 +18,10 @@ struct DirectionMap {
 inline DirectionMap fetch_directions(const light::LightData& lights, RecordIndex at) {
     namespace emission = light::emission;
     const float* p = lights.lamp_emission;
-    return {fetch3(p, at, emission::axis),       fetch3(p, at, emission::tangent),
-            fetch(p, at, emission::one_minus_cos), fetch(p, at, emission::x0),
-            fetch(p, at, emission::x1),          fetch(p, at, emission::half_y),
-            fetch(p, at, emission::density_in),  fetch(p, at, emission::density_out)};
+    return {
+        fetch3(p, at, emission::axis),      fetch3(p, at, emission::tangent),   fetch(p, at, emission::one_minus_cos),
+        fetch(p, at, emission::x0),         fetch(p, at, emission::x1),         fetch(p, at, emission::half_y),
+        fetch(p, at, emission::density_in), fetch(p, at, emission::density_out)};
 }
 
 struct MadeDirection {
@@ -38,9 +38,9 @@ inline MadeDirection sample_directions(const light::LightData& lights, RecordInd
     const Float side = fetch(lights.lamp_emission, at, emission::mass_side);
     const Mask before = u < below, within = ~before & (u < below + between);
     const Float thin = 1.0f / m.density_out;
-    const Float x = select(before, u * thin,
-                           select(within, fma((u - below) / between, m.x1 - m.x0, m.x0),
-                                  fma(u - below - between, thin, m.x1)));
+    const Float x =
+        select(before, u * thin,
+               select(within, fma((u - below) / between, m.x1 - m.x0, m.x0), fma(u - below - between, thin, m.x1)));
     const Mask under = v < side, over = v >= 1.0f - side;
     const Float bottom = 0.5f - m.half_y, height = 2.0f * m.half_y, scale = bottom / max(side, 1e-30f);
     const Float middle = fma(v - side, height / max(1.0f - 2.0f * side, 1e-30f), bottom);

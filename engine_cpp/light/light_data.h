@@ -143,7 +143,7 @@ struct LightData {
     /// Per emitter (the last one is the world, sampled or not): flux toward the casters, roughly (W); 0: sends no photons. For choosing
     /// emitters at the start.
     const float* emission_power = nullptr;
-    const float* lamp_emission = nullptr;  ///< k_emission_floats per lamp
+    const float* lamp_emission = nullptr;                       ///< k_emission_floats per lamp
     float scene_low[3] = {0, 0, 0}, scene_high[3] = {0, 0, 0};  ///< box around everything, a little wider; see `scene`
 
     int lamp_count = 0;

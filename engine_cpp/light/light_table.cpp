@@ -55,7 +55,8 @@ void LightTable::Storage::set_targets(Float3 scene_min, Float3 scene_max, const 
         high = {std::max(high.x, b.x), std::max(high.y, b.y), std::max(high.z, b.z)};
     }
     targets.scene = sphere_around(low, high);
-    if (!(targets.casters.radius > 0)) targets.casters = {{targets.scene.center[0], targets.scene.center[1], targets.scene.center[2]}, 0};
+    if (!(targets.casters.radius > 0))
+        targets.casters = {{targets.scene.center[0], targets.scene.center[1], targets.scene.center[2]}, 0};
     data.scene = targets.scene;
     data.casters = targets.casters;
     // Photons that start on the box must start outside of what touches it, whatever rounding does.
@@ -79,8 +80,7 @@ void LightTable::Storage::add_lamps(const std::vector<LampInput>& lamps, Float3 
         lamp_int.insert(lamp_int.end(), std::begin(r.number), std::end(r.number));
         const EmissionRecord emission = make_emission_record(r, targets.casters);
         lamp_emission.insert(lamp_emission.end(), std::begin(emission.value), std::end(emission.value));
-        emission_power.push_back(
-            lamp_emission_power(lamps[static_cast<std::size_t>(i)], r, emission, targets));
+        emission_power.push_back(lamp_emission_power(lamps[static_cast<std::size_t>(i)], r, emission, targets));
         if (r.bounds.energy > 0) (r.at_infinity() ? suns : finite).push_back({r.bounds, i});
         if (r.hittable && r.at_infinity()) hittable.push_back(i);
         if (r.hittable && !r.at_infinity()) boxed.push_back({r.box_lower, r.box_upper, i});
@@ -236,12 +236,12 @@ bool LightTable::empty() const { return storage_->data.entry_count == 0; }
 
 std::int64_t LightTable::memory_bytes() const {
     const Storage& s = *storage_;
-    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.lamp_emission) +
-           bytes(s.emission_power) + bytes(s.triangle) + bytes(s.triangle_int) + bytes(s.leaf_of) +
-           bytes(s.hittable) + bytes(s.triangle_base) + bytes(s.triangle_span) + bytes(s.triangle_emitter) +
-           bytes(s.nodes.record) + bytes(s.nodes.child) + bytes(s.nodes.parent) + bytes(s.boxes.box) +
-           bytes(s.boxes.first) + bytes(s.boxes.count) + bytes(s.boxes.lamps) + bytes(s.environment.conditional) +
-           bytes(s.environment.marginal) + bytes(s.environment.row_z);
+    return bytes(s.lamp) + bytes(s.lamp_int) + bytes(s.lamp_emission) + bytes(s.emission_power) + bytes(s.triangle) +
+           bytes(s.triangle_int) + bytes(s.leaf_of) + bytes(s.hittable) + bytes(s.triangle_base) +
+           bytes(s.triangle_span) + bytes(s.triangle_emitter) + bytes(s.nodes.record) + bytes(s.nodes.child) +
+           bytes(s.nodes.parent) + bytes(s.boxes.box) + bytes(s.boxes.first) + bytes(s.boxes.count) +
+           bytes(s.boxes.lamps) + bytes(s.environment.conditional) + bytes(s.environment.marginal) +
+           bytes(s.environment.row_z);
 }
 
 }  // namespace cardioid::light
