@@ -19,6 +19,13 @@ Region crop_region(const scene::Settings& s) {
     return {x0, y0, std::min(c[2], s.width - x0), std::min(c[3], s.height - y0)};
 }
 
+void add_to_class(Frame& frame, std::size_t pixel, int path_class, const float (&rgb)[3], float scale) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        frame.passes[static_cast<std::size_t>(pass_classes + path_class)].data[3 * pixel + k] += rgb[k] * scale;
+        frame.passes[pass_combined].data[4 * pixel + k] += rgb[k] * scale;
+    }
+}
+
 Film::Film(const scene::Settings& settings)
     : region_(crop_region(settings)),
       exposure_(settings.exposure),

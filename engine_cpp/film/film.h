@@ -56,6 +56,9 @@ private:
     std::vector<Pixel> pixels_;
 };
 
+/// Adds rgb × scale to a pixel of the class's pass (0: D1, …) and to Combined.
+void add_to_class(Frame& frame, std::size_t pixel, int path_class, const float (&rgb)[3], float scale);
+
 /// The crop of the settings, or the whole frame; clipped to the frame.
 Region crop_region(const scene::Settings& settings);
 

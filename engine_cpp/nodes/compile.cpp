@@ -72,7 +72,8 @@ float least_alpha(const Program& p) {
         for (const std::uint32_t axis : {9u, 10u}) {
             const std::uint16_t arg = p.args[in.args + axis];
             const bool constant = (arg & operand_constant) != 0;
-            larger = std::max(larger, constant ? p.constants[std::size_t(arg & k_operand_index) * k_constant_stride] : 0);
+            larger =
+                std::max(larger, constant ? p.constants[std::size_t(arg & k_operand_index) * k_constant_stride] : 0);
         }
         least = std::min(least, larger);
     }

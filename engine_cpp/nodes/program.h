@@ -44,7 +44,8 @@ struct ProgramInfo {
     bool needs_triangle_frame = false;  ///< reads barycentrics, dp_du, dp_dv, triangle or mesh
     bool needs_instance = false;        ///< reads InstanceInfo
     int lobes = 0;
-    float least_alpha = 1e30f;  ///< of the glossy lobes: none can be smoother; 0 where that is not known, 1e30 without any
+    float least_alpha =
+        1e30f;  ///< of the glossy lobes: none can be smoother; 0 where that is not known, 1e30 without any
 };
 
 }  // namespace cardioid::nodes

@@ -6,12 +6,18 @@
 #include "math/types.h"
 #include "nodes/run.h"
 #include "nodes/shading.h"
-#include "path/automaton.h"
+#include "path/partition.h"
+#include "photon/photon.h"
+#include "photon/radius.h"
 #include "trace/scene_view.h"
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+
+namespace cardioid::photon {
+class PhotonGuide;
+}
 
 namespace cardioid::path {
 
@@ -31,15 +37,18 @@ struct alignas(64) RayState {
     PathFloats pdf;             ///< density of the direction for MIS; -1: delta or camera, nothing to weigh against
     PathFloats from_normal[3];  ///< normal at the origin, zero where light from all sides counts
     PathFloats width, spread;   ///< of the pixel's cone: width at the origin, growth per unit length
-    PathFloats min_pdf;         ///< least density so far (Filter Glossy)
-    PathInts path;              ///< index in the batch
-    PathInts flags;             ///< nodes::RayFlag | state << k_state_shift | bits below
-    PathInts depth;             ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
-    PathInts transparent;       ///< transparent surfaces passed
+    PathFloats min_pdf;         ///< least density so far (Filter Glossy); photons: flux at birth
+    PathFloats merge;  ///< after x_d: density of its direction per projected sr / (pi r²); photons: of the emission
+    PathInts path;     ///< index in the batch
+    PathInts flags;    ///< nodes::RayFlag | state << k_state_shift | bits below; photons: PhotonState
+    PathInts depth;    ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
+    PathInts transparent;  ///< transparent surfaces passed
 };
 inline constexpr int k_state_shift = 8;
 inline constexpr std::int32_t k_flag_last = 1 << 12;        ///< only emission counts at the next surface
 inline constexpr std::int32_t k_flag_background = 1 << 13;  ///< nothing but transparency since the camera
+/// Photons: scene::Visibility bits of what the segment came from; lobes at its far end that it is hidden from do not see it.
+inline constexpr int k_visibility_shift = 16;
 
 /// Closest hits of RayState's rays.
 struct alignas(64) HitState {
@@ -57,6 +66,8 @@ struct alignas(64) VertexChunk {
     bsdf::Lobe* lobe = nullptr;  ///< `lobes` of them
     Row* pick = nullptr;         ///< probability of each lobe, `lobes` rows
     Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;
+    Row gather;  ///< 1 / probability of the D lobes where the path took one for the first time (x_d), otherwise 0
+    Row radius;  ///< of the gather
     std::int32_t path[k_chunk];
     std::int32_t flags[k_chunk];  ///< as RayState, of the arriving ray
     std::int32_t depth[k_chunk];
@@ -83,6 +94,8 @@ struct alignas(64) BatchResult {
 /// Counted facts; the sums over threads go to the statistics.
 struct Counters {
     std::uint64_t camera_paths = 0, rays = 0, shadow_rays = 0, vertices = 0, light_samples = 0, lobes_dropped = 0;
+    std::uint64_t gathers = 0, gathered = 0;                          ///< hit points, and photons that they found
+    std::uint64_t photons = 0, photon_rays = 0, photons_dropped = 0;  ///< emitted; dropped: flux that was not finite
     void add(const Counters& o) {
         camera_paths += o.camera_paths;
         rays += o.rays;
@@ -90,7 +103,39 @@ struct Counters {
         vertices += o.vertices;
         light_samples += o.light_samples;
         lobes_dropped += o.lobes_dropped;
+        gathers += o.gathers;
+        gathered += o.gathered;
+        photons += o.photons;
+        photon_rays += o.photon_rays;
+        photons_dropped += o.photons_dropped;
     }
+};
+
+/// The photons of a pass, as its camera paths gather them.
+struct PhotonPass {
+    photon::PhotonMapView map;
+    float emitted = 0;  ///< photons of the pass, stored or not
+    float radius = 2;   ///< of this pass, in footprints of a pixel
+    /// Per emitter: how dense its photons are, a factor of light/emit.h's densities (MIS of hits on lamps).
+    const float* emitter_density = nullptr;
+    std::atomic<std::uint32_t>* gathered = nullptr;  ///< counts gathers of each photon of the map; null: not wanted
+    /// Per-pixel schedule: statistics of the frame's rendered part, rows of `stride` from (x, y). Null: memoryless.
+    photon::PixelStatistics* pixels = nullptr;
+    int x = 0, y = 0, stride = 0;
+    int sample = 0;   ///< per-pixel schedule: the sample of the pass that gathers
+    float alpha = 1;  ///< per-pixel schedule
+};
+
+/// Photons [first, first + count) of a pass, at most k_batch.
+struct PhotonRequest {
+    const trace::SceneView* scene = nullptr;
+    const photon::PhotonGuide* guide = nullptr;
+    const float* emitter_density = nullptr;  ///< as PhotonPass
+    ClassSet classes = 0;                    ///< what is stored
+    std::uint32_t first = 0;
+    int count = 0;
+    std::uint32_t seed = 0;            ///< of the pass
+    photon::Photon* stored = nullptr;  ///< room for k_batch × (Settings::max_bounces + 1)
 };
 
 /// Pixels [x, x+width) × [y, y+height) with samples [first_sample, first_sample+samples) each; at most k_batch paths.
@@ -100,6 +145,16 @@ struct BatchRequest {
     int x = 0, y = 0, width = 0, height = 0;
     int first_sample = 0, samples = 1;
     std::uint32_t seed = 0;
+    Partition partition;
+    const PhotonPass* photons = nullptr;  ///< null: nothing is gathered
+};
+
+/// Photons that the vertices of one packet have found: lists by lane.
+struct alignas(64) GatherLists {
+    static constexpr int capacity = 256;
+    std::int32_t photon[capacity][16];
+    float kernel[capacity][16];  ///< weight by distance
+    int n[16];
 };
 
 /// Fixed memory for records; when it is full, direct light is evaluated early.
@@ -160,7 +215,8 @@ struct alignas(64) Scratch {
     nodes::ShadingChunk shading;
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
-    PathInts order;                     ///< paths sorted by material
+    PathInts order;  ///< paths sorted by material
+    GatherLists gather;
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them
     std::int32_t* bins = nullptr;       ///< material_count + 2 counters, owned by the caller
     Counters counters;
@@ -171,11 +227,14 @@ struct alignas(64) Scratch {
 
 /// Traces the batch; with width 1, 8 or 16 lanes.
 using TraceBatch = void (*)(const BatchRequest&, Scratch&, BatchResult&);
+/// Traces photons; returns how many it stored.
+using TracePhotons = int (*)(const PhotonRequest&, Scratch&);
 /// Traces the logged packets again with the same Embree calls and nothing else; returns how many rays hit something.
 using ReplayRays = std::uint64_t (*)(RTCSceneTy* scene, const RayLog& log);
 ReplayRays select_replay_rays(int width = 0);
 /// The kernels for this machine; `width` 0 picks the widest that it can run, otherwise that width (tests).
 TraceBatch select_trace_batch(int width = 0);
+TracePhotons select_trace_photons(int width = 0);
 /// Widest lanes that the processor can run: 1, 8 or 16.
 int best_width();
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Next-event estimation for the recorded vertices. Runs when the paths of the batch are built, so that shadow rays of all
 // bounces fill whole packets.
-#include "bsdf/kernels.h"
-#include "path/tracer.h"
+#include "path/bsdf_choice.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -14,21 +13,15 @@ struct BsdfEval {
     Float pdf_d = 0.0f, pdf_s = 0.0f;
 };
 
-/// Visibility bit that decides whether a lamp lights a lobe in direction wi.
-Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
-    const Int reflected(bsdf::is_diffuse_kind(kind) ? scene::visible_diffuse : scene::visible_glossy);
-    if (!bsdf::sends_light_through(kind)) return reflected;
-    return select(dot(wi, ng) < Float(0.0f), Int(scene::visible_transmission), reflected);
-}
-
 /// `visibility`: bits of the light, to leave out the lobes that it must not light; null when every lamp lights all.
-BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, float caustic_roughness,
+BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, const scene::Settings& settings,
                    const Int* visibility) {
+    const float caustic_roughness = settings.caustic_roughness;
     BsdfEval sum;
     for (int k = 0; k < chunk.lobes; ++k) {
         LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(chunk.lobe[k].kind))
-            e.f_cos = e.f_cos * bump_shadow(chunk, chunk.lobe[k], i, wi);
+        e.f_cos = carried_value(chunk, chunk.lobe[k], i, wo, wi, ng, e.f_cos, mask_of(false), Transport::radiance,
+                                settings.physical_refraction);
         if (visibility) {
             const Mask seen = (*visibility & lobe_visibility(chunk.lobe[k].kind, wi, ng)) != Int(0);
             e.f_cos = select(seen, e.f_cos, Spectrum(0.0f));
@@ -57,6 +50,7 @@ void Tracer::add_direct_light() {
     for (const path::VertexChunk* chunk = scratch.first_chunk; chunk; chunk = chunk->next) {
         for (int i = 0; i < chunk->n; i += W) {
             connect(*chunk, i);
+            if (request.photons) gather_photons(*chunk, i);
             if (scratch.shadows.n > path::ShadowQueue::capacity - 2 * W) flush_shadows();
         }
     }
@@ -68,7 +62,12 @@ void Tracer::add_direct_light() {
 
 void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Spectrum throughput = load_rgb(chunk.throughput, i);
-    const Mask active = first_lanes(chunk.n - i) & not_black(throughput);
+    const Int state = state_of(load(chunk.flags + i)), after_d = step_state(state, mask_of(false));
+    Mask active = first_lanes(chunk.n - i) & not_black(throughput);
+    const bool all_classes = request.partition.camera == path::k_all_classes;
+    const Mask before_d = state == Int(static_cast<int>(path::State::specular));
+    // Rough specular lobes of the first vertices are connected too (class D1).
+    if (!all_classes) active &= in_set(after_d, request.partition.camera) | before_d;
     if (none(active)) return;
     const Vec3 p = cardioid::CD_ISA_NS::load3(chunk.position, i),
                ng = cardioid::CD_ISA_NS::load3(chunk.normal_geometric, i);
@@ -86,7 +85,7 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
 
     if (scene.lights_are_limited) lit &= byte_of(depth, 0) <= light.max_bounces;
     const Int* visibility = scene.lights_are_limited ? &light.visibility : nullptr;
-    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings.caustic_roughness, visibility);
+    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings, visibility);
     lit &= not_black(f.d) | not_black(f.s);
     if (none(lit)) return;
     Spectrum radiance = light.radiance;
@@ -109,7 +108,7 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     }
 
     const Spectrum arriving = throughput * radiance * (1.0f / max(light.pdf, 1e-37f));
-    const Int bounce = byte_of(depth, 0), state = state_of(load(chunk.flags + i));
+    const Int bounce = byte_of(depth, 0);
     const float clamp_direct = scene.settings.clamp_direct, clamp_indirect = scene.settings.clamp_indirect;
     const Vec3 origin = offset_origin(p, ng, light.wi, load(chunk.distance + i));
     const Float reach =
@@ -140,9 +139,11 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         q.n += compress_store(q.path_class + at_n, after, shadowed);
         add_radiance(result, after, path, c, m & ~light.casts_shadow);
     };
-    queue(f.d, f.pdf_d, step_state(state, mask_of(false)), lit & not_black(f.d));
+    Mask by_d = lit & not_black(f.d);
+    if (!all_classes) by_d &= in_set(after_d, request.partition.camera);
+    queue(f.d, f.pdf_d, after_d, by_d);
     // Rough specular lobes are connected only while every vertex before was specular: after a D that is a caustic.
-    const Mask rough_specular = lit & not_black(f.s) & (state == Int(static_cast<int>(path::State::specular)));
+    const Mask rough_specular = lit & not_black(f.s) & before_d;
     if (any(rough_specular)) queue(f.s, f.pdf_s, Int(static_cast<int>(path::State::specular)), rough_specular);
 }
 

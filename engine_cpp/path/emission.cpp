@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light that rays found by themselves: emissive surfaces, lamps on the way, the world. MIS against next-event estimation.
+#include "light/emit.h"
 #include "path/tracer.h"
 
 #include <bit>
@@ -12,6 +13,20 @@ Float hit_weight(Float pdf, Float light_pdf) {
     return select(pdf < Float(0.0f), Float(1.0f), power_heuristic(pdf, light_pdf));
 }
 }  // namespace
+
+Mask Tracer::shares_with_photons(Int ray, Mask active) const {
+    if (request.partition.photons == 0) return mask_of(false);
+    return active & ~in_set(state_of(gather(now->flags, ray)), request.partition.camera);
+}
+
+Float Tracer::caustic_share(Int ray, Float photon_density, Mask active) const {
+    const Mask brought = active & (photon_density > Float(0.0f));
+    const Mask c1 = state_of(gather(now->flags, ray)) == Int(static_cast<int>(path::State::caustic_hit));
+    const Float merge = gather(now->merge, ray), photons = photon_density * request.photons->emitted;
+    const Float blended = merge / max(merge + photons, 1e-37f);
+    const Float share = select(c1 & mask_of(request.partition.blend_hits), blended, Float(0.0f));
+    return select(brought, share, Float(1.0f));
+}
 
 void Tracer::deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit) {
     const path::RayState& rays = *now;
@@ -48,6 +63,14 @@ void Tracer::add_surface_emission(int material, const std::int32_t* list) {
                                                  cardioid::CD_ISA_NS::load3(s.normal_geometric, i), weigh);
             weight = select(weigh, hit_weight(pdf, light_pdf), Float(1.0f));
         }
+        const Mask shared = shares_with_photons(ray, shines);
+        if (any(shared)) {
+            Int emitter;
+            const Float density =
+                triangle_emission_density(*scene.lights, load(s.instance + i), load(s.triangle + i), emitter, shared);
+            const Float choice = gather(request.photons->emitter_density, max(emitter, Int(0)));
+            weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
+        }
         deposit(ray, e * weight, shines, true);
     }
 }
@@ -78,7 +101,15 @@ void Tracer::add_lamp_hits() {
                 at.depth = load(rays.depth + i);
                 radiance *= shade_points(*this, nodes::Purpose::emission, Int(h.program), at, hit);
             }
-            deposit(ray, radiance * hit_weight(pdf, h.pdf), hit, true);
+            Float weight = hit_weight(pdf, h.pdf);
+            const Mask shared = shares_with_photons(ray, hit);
+            if (any(shared)) {
+                const int id = scene.lights->hittable[which];
+                const Float density = lamp_emission_density(*scene.lights, id, from.p, d, shared);
+                const Float choice = request.photons->emitter_density[id];
+                weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
+            }
+            deposit(ray, radiance * weight, hit, true);
         }
     }
 }
@@ -122,6 +153,13 @@ void Tracer::add_world(const std::int32_t* list, int n) {
         if (any(weigh)) {
             const LightReceiver from{load3(rays.origin, ray), load3(rays.from_normal, ray)};
             weight = select(weigh, hit_weight(pdf, pdf_environment(*scene.lights, from, d, weigh)), Float(1.0f));
+        }
+        const Mask shared = shares_with_photons(ray, shines);
+        if (any(shared)) {
+            const int id = scene.lights->environment.emitter;
+            const Float density = environment_emission_density(*scene.lights, load3(rays.origin, ray), d, shared);
+            const Float choice = id >= 0 ? Float(request.photons->emitter_density[id]) : Float(0.0f);
+            weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
         }
         deposit(ray, radiance * weight, shines, true);
     }

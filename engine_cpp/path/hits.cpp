@@ -3,7 +3,7 @@
 
 namespace cardioid::CD_ISA_NS {
 
-void Tracer::find_hits(bool coherent) {
+void Walk::find_hits(bool coherent, int visibility) {
     path::RayState& rays = *now;
     path::HitState& hits = scratch.hits;
     scratch.counters.rays += static_cast<std::uint64_t>(rays.n);
@@ -16,7 +16,7 @@ void Tracer::find_hits(bool coherent) {
         ray.t_min = load(rays.t_min + i);
         ray.t_max = coherent ? load(hits.t + i) : Float(1e30f);
         ray.time = 0.0f;
-        ray.mask = visibility_bit(load(rays.flags + i));
+        ray.mask = visibility != 0 ? Int(visibility) : visibility_bit(load(rays.flags + i));
         if (scratch.ray_log)
             log_rays(*scratch.ray_log, ray, active, coherent ? path::ray_kind_coherent : path::ray_kind_bounce);
         const HitLanes h = intersect(scene.embree, ray, active, coherent);
@@ -32,7 +32,7 @@ void Tracer::find_hits(bool coherent) {
     }
 }
 
-void Tracer::sort_by_material() {
+void Walk::sort_by_material() {
     const int bins = scene.material_count + 1;
     std::int32_t* end = scratch.bins;
     for (int b = 0; b <= bins; ++b) end[b] = 0;

@@ -7,10 +7,12 @@ namespace cardioid::CD_ISA_NS {
 
 namespace {
 
+constexpr std::int32_t k_ray_flags = 0xff;
+
 /// Fills scratch.shading with the lanes of `here`; the others repeat lane `first`, so that any program can read them.
-void fill_points(Tracer& tracer, int program, const ShadedPoint& at, Mask here, int first) {
-    nodes::ShadingChunk& s = tracer.scratch.shading;
-    const trace::SceneView& scene = tracer.scene;
+void fill_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int first) {
+    nodes::ShadingChunk& s = walk.scratch.shading;
+    const trace::SceneView& scene = walk.scene;
     const auto spread = [&](Float x) { return select(here, x, Float(x[first])); };
     const auto spread_int = [&](Int x) { return select(here, x, Int(x[first])); };
     const auto put = [&](Row(&rows)[3], Vec3 v) { store3(rows, 0, {spread(v.x), spread(v.y), spread(v.z)}); };
@@ -47,18 +49,65 @@ void fill_points(Tracer& tracer, int program, const ShadedPoint& at, Mask here, 
 
 }  // namespace
 
-Spectrum shade_points(Tracer& tracer, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active) {
+void Walk::fill_shading(int material, const std::int32_t* list, int n) {
+    nodes::ShadingChunk& s = scratch.shading;
+    const nodes::ProgramInfo& info = scene.materials[material].info;
+    const path::RayState& rays = *now;
+    const path::HitState& hits = scratch.hits;
+    s.n = n;
+    s.geometry = &scene.geometry;
+    s.material_pass_index = scene.materials[material].pass_index;
+    for (int i = 0; i < n; i += W) {
+        const Int ray = load(list + i);
+        const Int instance = gather(hits.instance, ray), triangle = gather(hits.triangle, ray);
+        const Float t = gather(hits.t, ray), u = gather(hits.u, ray), v = gather(hits.v, ray);
+        const Vec3 d = load3(rays.direction, ray);
+        const Vec3 p = load3(rays.origin, ray) + d * t;
+        const SurfaceNormals normals = surface_normals(scene, instance, triangle, load3(hits.ng, ray), u, v, -d);
+        cardioid::CD_ISA_NS::store3(s.position, i, p);
+        cardioid::CD_ISA_NS::store3(s.normal_geometric, i, normals.ng);
+        cardioid::CD_ISA_NS::store3(s.normal, i, normals.n);
+        cardioid::CD_ISA_NS::store3(s.wo, i, -d);
+        store(s.ray_length + i, t);
+        store(s.backfacing + i, select(normals.backfacing, Float(1.0f), Float(0.0f)));
+        store(s.triangle + i, triangle);
+        store(s.instance + i, instance);
+        store(s.mesh + i, gather(scene.instances.mesh, instance));
+        const Int flags = gather(rays.flags, ray);
+        store(reinterpret_cast<std::int32_t*>(s.ray_flags) + i, flags & Int(k_ray_flags));
+        store(s.footprint + i, gather(rays.width, ray) + gather(rays.spread, ray) * t);
+        if (info.needs_triangle_frame || info.has_bump) {
+            Vec3 e1, e2;
+            triangle_edges(scene, instance, triangle, e1, e2);
+            cardioid::CD_ISA_NS::store3(s.dp_du, i, e1);
+            cardioid::CD_ISA_NS::store3(s.dp_dv, i, e2);
+            store(s.barycentric_u + i, u);
+            store(s.barycentric_v + i, v);
+            store(s.time + i, Float(0.0f));
+        }
+        if (info.needs_light_path) {
+            const Int depth = gather(rays.depth, ray);
+            store(s.ray_depth + i, to_float(byte_of(depth, 0)));
+            store(s.diffuse_depth + i, to_float(byte_of(depth, 1)));
+            store(s.glossy_depth + i, to_float(byte_of(depth, 2)));
+            store(s.transmission_depth + i, to_float(byte_of(depth, 3)));
+            store(s.transparent_depth + i, to_float(gather(rays.transparent, ray)));
+        }
+    }
+}
+
+Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active) {
     const bool emission = purpose == nodes::Purpose::emission;
-    nodes::SurfaceOutput& out = tracer.scratch.surface;
+    nodes::SurfaceOutput& out = walk.scratch.surface;
     Spectrum result{0.0f};
     for (std::uint32_t left = bits(active); left != 0;) {
         const int first = std::countr_zero(left);
         const int id = program[first];
         const Mask here = active & (program == Int(id));
         left &= ~bits(here);
-        fill_points(tracer, id, at, here, first);
-        const trace::MaterialView& m = tracer.scene.materials[id];
-        run_program(emission ? *m.emission : *m.transparency, tracer.scratch.shading, out, tracer.scratch.registers);
+        fill_points(walk, id, at, here, first);
+        const trace::MaterialView& m = walk.scene.materials[id];
+        run_program(emission ? *m.emission : *m.transparency, walk.scratch.shading, out, walk.scratch.registers);
         result = select(here, load_rgb(emission ? out.emission : out.transparency, 0), result);
     }
     return result;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One chunk: rays that hit the same material. Runs its program, keeps the vertices as a record, samples where paths go on.
-#include "bsdf/kernels.h"
-#include "path/tracer.h"
+#include "path/bsdf_choice.h"
 
 namespace cardioid::CD_ISA_NS {
 
 namespace {
-
-constexpr std::int32_t k_ray_flags = 0xff;
 
 void scale_rows(Row (&rows)[3], int i, Mask dark) {
     for (auto& row : rows) store(row + i, select(dark, Float(0.0f), load(row + i)));
@@ -31,92 +28,17 @@ void blur_glossy(bsdf::Lobe& lobe, int i, Float least_alpha) {
     store(lobe.alpha_y + i, max(load(lobe.alpha_y + i), least_alpha));
 }
 
-struct Choice {
-    Vec3 wi;
-    Spectrum f{0.0f};
-    Float pdf = 0.0f;
-    Mask valid, delta, transmitted, diffuse, specular, through;
-    Float blur = 0.0f;   ///< how far the lobe widens the pixel's cone
-    Float alpha = 1.0f;  ///< of a glossy lobe
-    Int lobe;
-};
-
-/// Chooses a lobe by its albedo (or the way straight through) with u.x and samples it with what is left of u.x and u.y: each
-/// lobe's share of a stratified sequence stays stratified. f and pdf are those of all lobes of the same class.
-/// `side` chooses between reflection and refraction.
-Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng, Vec2 u,
-                   Float side, float caustic_roughness, Mask active) {
-    Choice c;
-    c.wi = ng;
-    c.valid = c.delta = c.transmitted = c.diffuse = c.specular = mask_of(false);
-    c.lobe = Int(-1);
-    Float sum = 0.0f;
-    for (int k = 0; k < chunk.lobes; ++k) {
-        const bsdf::Lobe& lobe = chunk.lobe[k];
-        const Float p = load(chunk.pick[k] + i);
-        const Mask here = active & (u.x >= sum) & (u.x < sum + p);
-        const Float rest = clamp((u.x - sum) / max(p, 1e-30f), 0.0f, 0.99999994f);
-        sum += p;
-        if (none(here)) continue;
-        LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind))
-            s.f_cos = s.f_cos * bump_shadow(chunk, lobe, i, s.wi);
-        const Mask ok = here & s.valid;
-        c.wi = select(ok, s.wi, c.wi);
-        c.f = select(ok, s.f_cos, c.f);
-        c.pdf = select(ok, s.pdf * p, c.pdf);
-        c.valid |= ok;
-        c.delta |= ok & s.delta;
-        c.transmitted |= ok & s.transmitted;
-        if (bsdf::is_diffuse_kind(lobe.kind)) {
-            c.diffuse |= ok;
-            c.blur = select(ok, Float(0.3f), c.blur);
-        } else {
-            c.alpha = select(ok, load(lobe.alpha_x + i), c.alpha);
-            c.blur = select(ok, 0.3f * c.alpha, c.blur);
-        }
-        c.specular |= ok & is_specular(lobe, i, caustic_roughness);
-        c.lobe = select(ok, Int(k), c.lobe);
-    }
-    c.through = active & (u.x >= sum) & (u.x < sum + transparency_pick);
-    if (chunk.lobes < 2) return c;
-    const Mask mix = c.valid & ~c.delta;
-    if (none(mix)) return c;
-    for (int k = 0; k < chunk.lobes; ++k) {
-        const bsdf::Lobe& lobe = chunk.lobe[k];
-        const Mask same_class = ~(is_specular(lobe, i, caustic_roughness) ^ c.specular);
-        const Mask here = mix & same_class & (c.lobe != Int(k));
-        if (none(here)) continue;
-        LobeEval e = eval_lobe(lobe, i, wo, c.wi, ng);
-        if (chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind))
-            e.f_cos = e.f_cos * bump_shadow(chunk, lobe, i, c.wi);
-        c.f = select(here, c.f + e.f_cos, c.f);
-        c.pdf = select(here, c.pdf + e.pdf * load(chunk.pick[k] + i), c.pdf);
-    }
-    return c;
-}
-
 /// Depth counters and flags after a scattering event.
 struct NextPath {
     Int flags, depth;
 };
 
 NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Choice& c) {
-    const Mask reflected = ~c.transmitted;
-    const Int one_diffuse = select(reflected & c.diffuse, Int(1 << 8), Int(0));
-    const Int one_glossy = select(reflected & ~c.diffuse, Int(1 << 16), Int(0));
-    const Int one_transmission = select(c.transmitted, Int(1 << 24), Int(0));
     NextPath n;
-    n.depth = depth + Int(1) + one_diffuse + one_glossy + one_transmission;
-    const Mask last = (byte_of(n.depth, 0) > Int(settings.max_bounces)) |
-                      (byte_of(n.depth, 1) > Int(settings.max_diffuse_bounces)) |
-                      (byte_of(n.depth, 2) > Int(settings.max_glossy_bounces)) |
-                      (byte_of(n.depth, 3) > Int(settings.max_transmission_bounces));
-    Int kind = select(c.diffuse, Int(nodes::ray_diffuse), Int(nodes::ray_glossy));
-    kind = select(c.delta, Int(nodes::ray_glossy | nodes::ray_singular), kind);
-    kind = kind | select(c.transmitted, Int(nodes::ray_transmission), Int(nodes::ray_reflection));
+    n.depth = count_bounce(depth, c);
     const Int state = step_state(state_of(flags), c.specular);
-    n.flags = kind | (state << path::k_state_shift) | select(last, Int(path::k_flag_last), Int(0));
+    const Mask last = over_limits(settings, n.depth);
+    n.flags = ray_kind(c) | (state << path::k_state_shift) | select(last, Int(path::k_flag_last), Int(0));
     if (settings.transparent_film && settings.transparent_glass) {
         // Clear glass lets the background's transparency through, as Cycles' Transparent Glass.
         const float roughness = settings.transparent_roughness;
@@ -127,53 +49,6 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
 }
 
 }  // namespace
-
-void Tracer::fill_shading(int material, const std::int32_t* list, int n) {
-    nodes::ShadingChunk& s = scratch.shading;
-    const nodes::ProgramInfo& info = scene.materials[material].info;
-    const path::RayState& rays = *now;
-    const path::HitState& hits = scratch.hits;
-    s.n = n;
-    s.geometry = &scene.geometry;
-    s.material_pass_index = scene.materials[material].pass_index;
-    for (int i = 0; i < n; i += W) {
-        const Int ray = load(list + i);
-        const Int instance = gather(hits.instance, ray), triangle = gather(hits.triangle, ray);
-        const Float t = gather(hits.t, ray), u = gather(hits.u, ray), v = gather(hits.v, ray);
-        const Vec3 d = load3(rays.direction, ray);
-        const Vec3 p = load3(rays.origin, ray) + d * t;
-        const SurfaceNormals normals = surface_normals(scene, instance, triangle, load3(hits.ng, ray), u, v, -d);
-        cardioid::CD_ISA_NS::store3(s.position, i, p);
-        cardioid::CD_ISA_NS::store3(s.normal_geometric, i, normals.ng);
-        cardioid::CD_ISA_NS::store3(s.normal, i, normals.n);
-        cardioid::CD_ISA_NS::store3(s.wo, i, -d);
-        store(s.ray_length + i, t);
-        store(s.backfacing + i, select(normals.backfacing, Float(1.0f), Float(0.0f)));
-        store(s.triangle + i, triangle);
-        store(s.instance + i, instance);
-        store(s.mesh + i, gather(scene.instances.mesh, instance));
-        const Int flags = gather(rays.flags, ray);
-        store(reinterpret_cast<std::int32_t*>(s.ray_flags) + i, flags & Int(k_ray_flags));
-        store(s.footprint + i, gather(rays.width, ray) + gather(rays.spread, ray) * t);
-        if (info.needs_triangle_frame || info.has_bump) {
-            Vec3 e1, e2;
-            triangle_edges(scene, instance, triangle, e1, e2);
-            cardioid::CD_ISA_NS::store3(s.dp_du, i, e1);
-            cardioid::CD_ISA_NS::store3(s.dp_dv, i, e2);
-            store(s.barycentric_u + i, u);
-            store(s.barycentric_v + i, v);
-            store(s.time + i, Float(0.0f));
-        }
-        if (info.needs_light_path) {
-            const Int depth = gather(rays.depth, ray);
-            store(s.ray_depth + i, to_float(byte_of(depth, 0)));
-            store(s.diffuse_depth + i, to_float(byte_of(depth, 1)));
-            store(s.glossy_depth + i, to_float(byte_of(depth, 2)));
-            store(s.transmission_depth + i, to_float(byte_of(depth, 3)));
-            store(s.transparent_depth + i, to_float(gather(rays.transparent, ray)));
-        }
-    }
-}
 
 path::VertexChunk* Tracer::new_record(int material) {
     const int lobes = scene.materials[material].info.lobes;
@@ -255,13 +130,39 @@ void Tracer::log_vertices(const path::VertexChunk& chunk, int material) {
     }
 }
 
+void Tracer::apply_holdout(Int path, Spectrum throughput, Float holdout, Mask lanes) {
+    lanes &= holdout > Float(0.0f);
+    if (none(lanes)) return;
+    const Float hole = average(throughput) * holdout;
+    for (std::uint32_t b = bits(lanes); b != 0; b &= b - 1) {
+        const int k = std::countr_zero(b);
+        result.alpha[path[k]] -= hole[k];
+    }
+}
+
+void Tracer::adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf) {
+    const scene::Settings& settings = scene.settings;
+    const bool drop_caustics = !settings.reflective_caustics || !settings.refractive_caustics;
+    if (!drop_caustics && settings.filter_glossy <= 0) return;
+    const Mask after_diffuse = (flags & Int(nodes::ray_diffuse)) != Int(0);
+    for (int k = 0; k < chunk.lobes; ++k) {
+        bsdf::Lobe& lobe = chunk.lobe[k];
+        if (drop_caustics) drop_caustic_lobes(settings, lobe, i, after_diffuse);
+        if (settings.filter_glossy <= 0) continue;
+        const Float blur_pdf = min_pdf * (1.0f / settings.filter_glossy);
+        if (any(blur_pdf < Float(1.0f))) blur_glossy(lobe, i, 0.5f * safe_sqrt(1.0f - blur_pdf));
+    }
+}
+
 void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
     const scene::Settings& settings = scene.settings;
     const nodes::ShadingChunk& s = scratch.shading;
     const nodes::SurfaceOutput& out = scratch.surface;
     const path::RayState& rays = *now;
     path::RayState& to = *next;
-    const bool drop_caustics = !settings.reflective_caustics || !settings.refractive_caustics;
+    const path::Partition& partition = request.partition;
+    const path::ClassSet wanted =
+        path::ClassSet(partition.camera | (partition.blend_hits ? bit(path::PathClass::c1) : 0));
     for (int i = 0; i < chunk.n; i += W) {
         const Mask lanes = first_lanes(chunk.n - i);
         const Int ray = load(list + i);
@@ -279,33 +180,11 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Mask background = (flags & Int(path::k_flag_background)) != Int(0);
         Mask held = mask_of(false);
         if (scene.any_holdout) held = background & (gather(scene.instances.holdout, load(s.instance + i)) != Int(0));
-        const Float holdout = select(held, Float(1.0f), load(out.holdout + i));
-        if (any(lanes & background & (holdout > Float(0.0f)))) {
-            const Float alpha = gather(result.alpha, path) - average(throughput) * holdout;
-            for (int k = 0; k < W && i + k < chunk.n; ++k) {
-                if (bits(background) >> k & 1u) result.alpha[path[k]] = alpha[k];
-            }
-        }
+        apply_holdout(path, throughput, select(held, Float(1.0f), load(out.holdout + i)), lanes & background);
 
-        // Probabilities of the lobes and of going straight through, by albedo.
-        const Mask after_diffuse = (flags & Int(nodes::ray_diffuse)) != Int(0);
+        adjust_lobes(chunk, i, flags, min_pdf);
         const Spectrum transparency = load_rgb(out.transparency, i);
-        Float total = 0.0f;
-        for (int k = 0; k < chunk.lobes; ++k) {
-            bsdf::Lobe& lobe = chunk.lobe[k];
-            if (drop_caustics) drop_caustic_lobes(settings, lobe, i, after_diffuse);
-            if (settings.filter_glossy > 0) {
-                const Float blur_pdf = min_pdf * (1.0f / settings.filter_glossy);
-                if (any(blur_pdf < Float(1.0f))) blur_glossy(lobe, i, 0.5f * safe_sqrt(1.0f - blur_pdf));
-            }
-            const Float albedo = max(average(lobe_albedo(lobe, i, wo)), 0.0f);
-            store(chunk.pick[k] + i, albedo);
-            total += albedo;
-        }
-        const Float albedo_through = max(average(transparency), 0.0f);
-        total += albedo_through;
-        const Float inv_total = select(total > Float(0.0f), 1.0f / total, Float(0.0f));
-        for (int k = 0; k < chunk.lobes; ++k) store(chunk.pick[k] + i, load(chunk.pick[k] + i) * inv_total);
+        const Float pick_through = choose_by_albedo(chunk, i, wo, transparency);
 
         const Mask last = (flags & Int(path::k_flag_last)) != Int(0);
         const Mask alive = lanes & ~held;
@@ -325,12 +204,15 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
         const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));
         const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
-        Choice c =
-            sample_bsdf(chunk, albedo_through * inv_total, i, wo, ng, u, chance.y, settings.caustic_roughness, alive);
+        Choice c = sample_bsdf(chunk, pick_through, i, wo, ng, u, chance.y, settings, Transport::radiance, alive);
         c.valid &= scatters & (c.pdf > Float(0.0f));
+        const Float width = gather(rays.width, ray), spread = gather(rays.spread, ray);
+        Float merge = gather(rays.merge, ray);
+        if (request.photons) merge = mark_gather(chunk, i, c, scatters, width + spread * t, merge);
 
         Spectrum carried = throughput * c.f * (1.0f / max(c.pdf, 1e-37f));
         NextPath path_next = advance(settings, flags, depth, c);
+        if (wanted != path::k_all_classes) c.valid &= can_reach(state_of(path_next.flags), wanted);
         // Roulette from the third vertex.
         const Mask gamble = c.valid & (byte_of(path_next.depth, 0) > Int(2));
         const Float survive = select(gamble, min(max_component(carried), 0.95f), Float(1.0f));
@@ -338,40 +220,29 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         carried = carried * (1.0f / max(survive, 1e-37f));
 
         const Mask passes = c.through & (transparent < Int(settings.max_transparent_bounces));
-        const Spectrum passed = throughput * transparency * (1.0f / max(albedo_through * inv_total, 1e-37f));
+        const Spectrum passed = throughput * transparency * (1.0f / max(pick_through, 1e-37f));
         const Mask go = c.valid | passes;
         if (none(go)) continue;
-        const Vec3 origin = select(passes, load3(rays.origin, ray), offset_origin(p, ng, c.wi, t));
-        const Vec3 direction = select(passes, -wo, c.wi);
-        const Spectrum weight = select(passes, passed, carried);
-        const Float width = gather(rays.width, ray), spread = gather(rays.spread, ray);
-        const int k = to.n;
-        append(to.origin[0], k, origin.x, go);
-        append(to.origin[1], k, origin.y, go);
-        append(to.origin[2], k, origin.z, go);
-        append(to.direction[0], k, direction.x, go);
-        append(to.direction[1], k, direction.y, go);
-        append(to.direction[2], k, direction.z, go);
-        append(to.t_min, k, select(passes, t + offset_step(p, t), Float(0.0f)), go);
-        append(to.throughput[0], k, weight.r, go);
-        append(to.throughput[1], k, weight.g, go);
-        append(to.throughput[2], k, weight.b, go);
         // Rough specular lobes after a D are not connected to lamps, so that their hits count in full.
         const Mask unconnected =
             c.delta | (c.specular & (state_of(flags) != Int(static_cast<int>(path::State::specular))));
-        append(to.pdf, k, select(passes, gather(rays.pdf, ray), select(unconnected, Float(-1.0f), c.pdf)), go);
         const Vec3 from = chunk.all_sides ? Vec3{0.0f, 0.0f, 0.0f} : n;
-        const Vec3 from_normal = select(passes, load3(rays.from_normal, ray), from);
-        append(to.from_normal[0], k, from_normal.x, go);
-        append(to.from_normal[1], k, from_normal.y, go);
-        append(to.from_normal[2], k, from_normal.z, go);
-        append(to.width, k, select(passes, width, width + spread * t), go);
-        append(to.spread, k, select(passes, spread, spread + c.blur), go);
-        append(to.min_pdf, k, select(passes | c.delta, min_pdf, min(min_pdf, c.pdf)), go);
-        compress_store(to.path + k, path, go);
-        compress_store(to.flags + k, select(passes, flags, path_next.flags), go);
-        compress_store(to.depth + k, select(passes, depth, path_next.depth), go);
-        to.n += compress_store(to.transparent + k, transparent + select(passes, Int(1), Int(0)), go);
+        RayLaneState r;
+        r.origin = select(passes, load3(rays.origin, ray), offset_origin(p, ng, c.wi, t));
+        r.direction = select(passes, -wo, c.wi);
+        r.t_min = select(passes, t + offset_step(p, t), Float(0.0f));
+        r.throughput = select(passes, passed, carried);
+        r.pdf = select(passes, gather(rays.pdf, ray), select(unconnected, Float(-1.0f), c.pdf));
+        r.from_normal = select(passes, load3(rays.from_normal, ray), from);
+        r.width = select(passes, width, width + spread * t);
+        r.spread = select(passes, spread, spread + c.blur);
+        r.min_pdf = select(passes | c.delta, min_pdf, min(min_pdf, c.pdf));
+        r.merge = merge;
+        r.path = path;
+        r.flags = select(passes, flags, path_next.flags);
+        r.depth = select(passes, depth, path_next.depth);
+        r.transparent = transparent + select(passes, Int(1), Int(0));
+        append_ray(to, r, go);
     }
 }
 

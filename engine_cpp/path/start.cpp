@@ -53,6 +53,7 @@ void Tracer::start() {
         store(rays.width + i, r.width);
         store(rays.spread + i, r.spread);
         store(rays.min_pdf + i, Float(1e30f));
+        store(rays.merge + i, Float(0.0f));
         store(rays.path + i, Int(i) + lane_index());
         store(rays.flags + i, Int(nodes::ray_camera | path::k_flag_background));
         store(rays.depth + i, Int(0));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stages of a batch over lanes. One Tracer lives for one batch and owns nothing.
+// The stages of a batch over lanes: Walk is what camera paths and photons share, Tracer is a batch of camera paths. Both live
+// for one batch and own nothing.
 #pragma once
 
 #include "light/kernels.h"
@@ -10,21 +11,38 @@
 
 namespace cardioid::CD_ISA_NS {
 
-struct Tracer {
+struct Walk {
     const trace::SceneView& scene;
-    const path::BatchRequest& request;
     path::Scratch& scratch;
-    path::BatchResult& result;
     path::RayState* now = nullptr;   ///< rays of this bounce
     path::RayState* next = nullptr;  ///< rays of the next one
 
-    // start.cpp: camera rays of all paths, results cleared.
-    void start();
-
     // hits.cpp
-    void find_hits(bool coherent);
+    /// `visibility`: scene::Visibility bits of what can be hit; 0: by the kind of each ray.
+    void find_hits(bool coherent, int visibility);
     /// Stable counting sort of the live rays by material into scratch.order; bins[m] is the end of bin m.
     void sort_by_material();
+    /// Calls body(material, rays, n) for chunks of at most 64 rays at one material; material_count stands for no hit.
+    template <class Body>
+    void for_each_chunk(Body&& body);
+    void swap_rays() {
+        path::RayState* const done = now;
+        now = next;
+        next = done;
+    }
+
+    // points.cpp: the shading chunk of rays at one material.
+    void fill_shading(int material, const std::int32_t* rays, int n);
+};
+
+struct Choice;
+
+struct Tracer : Walk {
+    const path::BatchRequest& request;
+    path::BatchResult& result;
+
+    // start.cpp: camera rays of all paths, results cleared.
+    void start();
 
     // emission.cpp: light that rays found by themselves.
     void add_lamp_hits();
@@ -32,14 +50,32 @@ struct Tracer {
     void add_surface_emission(int material, const std::int32_t* rays);
     /// Adds radiance × throughput of ray lanes to their paths, clamped as Cycles does.
     void deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit);
+    /// Lanes whose hit is (in part) the photons' part: they ask for caustic_share.
+    Mask shares_with_photons(Int ray, Mask active) const;
+    /// Weight of a hit on light that photons of this density bring too (MIS; 0: they never bring it).
+    Float caustic_share(Int ray, Float photon_density, Mask active) const;
 
     // shade.cpp: one chunk of at most 64 rays at one material.
     void shade(int material, const std::int32_t* rays, int n);
-    void fill_shading(int material, const std::int32_t* rays, int n);
     void scatter(path::VertexChunk& chunk, const std::int32_t* rays);
+    void apply_holdout(Int path, Spectrum throughput, Float holdout, Mask lanes);
+    /// What Cycles' settings do to lobes: caustics switched off, Filter Glossy.
+    void adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf);
     path::VertexChunk* new_record(int material);
     void write_first_hit(const std::int32_t* rays, int n);
     void log_vertices(const path::VertexChunk& chunk, int material);
+
+    // gather.cpp: photons around x_d, the first vertex where a D lobe was chosen.
+    /// Fills the chunk's gather and radius; returns RayState::merge of the ways on.
+    Float mark_gather(path::VertexChunk& chunk, int i, const Choice& c, Mask scatters, Float footprint, Float merge);
+    /// Radius of the gather, or what the pixel has come to.
+    Float gather_radius(const path::VertexChunk& chunk, int i, Float footprint, Mask here);
+    void gather_photons(const path::VertexChunk& chunk, int i);
+    /// Adds the photons of scratch.gather to the lanes' sums by class, and empties the lists.
+    void add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[path::k_classes]);
+    /// From flux to radiance; in the per-pixel schedule to the pixels' statistics.
+    void add_estimate(const path::VertexChunk& chunk, int i, const Spectrum (&sum)[path::k_classes],
+                      const int (&found)[W], Mask active);
 
     // direct.cpp: next-event estimation for all recorded vertices.
     void add_direct_light();
@@ -47,7 +83,27 @@ struct Tracer {
     void flush_shadows();
     /// Share of the light that transparent surfaces let through; lanes that they block leave `visible`.
     Spectrum through_transparent(RayLanes ray, Mask& visible);
+
+    /// True where some class of the set is estimated by camera paths.
+    bool wants(path::ClassSet classes) const { return (request.partition.camera & classes) != 0; }
 };
+
+template <class Body>
+void Walk::for_each_chunk(Body&& body) {
+    std::int32_t list[k_chunk + 16];
+    int begin = 0;
+    for (int m = 0; m <= scene.material_count; ++m) {
+        const int end = scratch.bins[m];
+        for (int at = begin; at < end; at += k_chunk) {
+            const int n = end - at < k_chunk ? end - at : k_chunk;
+            for (int i = 0; i < n; ++i) list[i] = scratch.order[at + i];
+            // Lanes past the end repeat the last ray, so that kernels may compute them.
+            for (int i = n; i < n + 16; ++i) list[i] = list[n - 1];
+            body(m, list, n);
+        }
+        begin = end;
+    }
+}
 
 /// W points whose emission or transparency is wanted, outside the chunks of a bounce.
 struct ShadedPoint {
@@ -62,7 +118,7 @@ struct ShadedPoint {
 
 /// Runs the programs `program` (ids of SceneView::materials) at the points; gathers lanes by program.
 /// Purpose::emission gives radiance, Purpose::transparency what passes straight through.
-Spectrum shade_points(Tracer& tracer, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active);
+Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active);
 
 /// Appends a packet to the log; one that does not fit is dropped.
 inline void log_rays(path::RayLog& log, const RayLanes& ray, Mask active, path::RayKind kind) {
@@ -85,6 +141,22 @@ inline Float bump_shadow(const path::VertexChunk& chunk, const bsdf::Lobe& lobe,
     const Float g = dot(smooth, wi) / max(abs(cos_light) * abs(dot(smooth, bumped)), 1e-20f);
     const Float soft = select(g < Float(0.0f), Float(0.0f), fma(g * g, 1.0f - g, g));
     return select(g >= Float(1.0f), Float(1.0f), soft);
+}
+
+/// Visibility bit that decides whether a lamp lights a lobe in direction wi.
+inline Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
+    const Int reflected(bsdf::is_diffuse_kind(kind) ? scene::visible_diffuse : scene::visible_glossy);
+    if (!bsdf::sends_light_through(kind)) return reflected;
+    return select(dot(wi, ng) < Float(0.0f), Int(scene::visible_transmission), reflected);
+}
+
+/// Lanes whose state, as a class, is in the set.
+inline Mask in_set(Int path_class, path::ClassSet set) {
+    Mask m = mask_of(false);
+    for (int c = 0; c < path::k_classes; ++c) {
+        if (set >> c & 1) m |= path_class == Int(c);
+    }
+    return m;
 }
 
 inline Int byte_of(Int packed, int which) { return (packed >> (8 * which)) & Int(255); }
@@ -112,6 +184,23 @@ inline Int visibility_bit(Int flags) {
     return select(has(nodes::ray_camera), Int(scene::visible_camera), bit);
 }
 
+/// path::reachable over lanes: some class of the set may still come.
+inline Mask can_reach(Int state, path::ClassSet set) {
+    Mask m = mask_of(false);
+    for (int s = 0; s < path::k_states; ++s) {
+        if ((path::reachable(static_cast<path::State>(s)) & set) != 0) m |= state == Int(s);
+    }
+    return m;
+}
+
+/// One packet of RayState.
+struct RayLaneState {
+    Vec3 origin, direction, from_normal;
+    Spectrum throughput;
+    Float t_min, pdf, width, spread, min_pdf, merge;
+    Int path, flags, depth, transparent;
+};
+
 inline Vec3 load3(const path::PathFloats (&rows)[3], Int index) {
     return {gather(rows[0], index), gather(rows[1], index), gather(rows[2], index)};
 }
@@ -127,6 +216,25 @@ inline void store3(path::PathFloats (&rows)[3], int index, Vec3 a) {
 /// The lanes of `value` that m selects, next to each other from to[n] on; returns how many.
 inline int append(float* to, int n, Float value, Mask m) {
     return compress_store(reinterpret_cast<std::int32_t*>(to) + n, bits_of(value), m);
+}
+
+/// Appends the lanes of m to the rays.
+inline void append_ray(path::RayState& to, const RayLaneState& r, Mask m) {
+    const int n = to.n;
+    const Float floats[] = {r.origin.x,    r.origin.y,      r.origin.z,      r.direction.x,   r.direction.y,
+                            r.direction.z, r.t_min,         r.throughput.r,  r.throughput.g,  r.throughput.b,
+                            r.pdf,         r.from_normal.x, r.from_normal.y, r.from_normal.z, r.width,
+                            r.spread,      r.min_pdf,       r.merge};
+    float* const rows[] = {to.origin[0],    to.origin[1],      to.origin[2],      to.direction[0],   to.direction[1],
+                           to.direction[2], to.t_min,          to.throughput[0],  to.throughput[1],  to.throughput[2],
+                           to.pdf,          to.from_normal[0], to.from_normal[1], to.from_normal[2], to.width,
+                           to.spread,       to.min_pdf,        to.merge};
+    static_assert(sizeof rows / sizeof *rows == sizeof floats / sizeof *floats);
+    for (std::size_t k = 0; k < sizeof rows / sizeof *rows; ++k) append(rows[k], n, floats[k], m);
+    compress_store(to.path + n, r.path, m);
+    compress_store(to.flags + n, r.flags, m);
+    compress_store(to.depth + n, r.depth, m);
+    to.n += compress_store(to.transparent + n, r.transparent, m);
 }
 
 /// Adds radiance to the paths' sums of their classes, in lane order: several lanes may share a path.

@@ -41,8 +41,8 @@ inline void for_each_photon(const PhotonMapView& view, const float (&center)[3],
         high[k] = detail::to_cells(upper - view.lower[k], view.scale);
         widest = high[k] - low[k] > widest ? high[k] - low[k] : widest;
     }
-    // Cells of a quarter of the box or less are not worth opening: their photons are tested in one run.
-    const int smallest = widest >= 4 ? 29 - __builtin_clz(widest) : -1;
+    // Cells of half of the box or less are not worth opening: their photons are tested in one run.
+    const int smallest = widest >= 2 ? 30 - __builtin_clz(widest) : -1;
 
     const float radius2 = radius * radius;
     std::uint32_t corner[3] = {};

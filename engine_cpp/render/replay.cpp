@@ -56,7 +56,9 @@ std::string replay_sample(const scene::SceneDesc& desc, int x, int y, int sample
     path::PathLog log{vertices.data(), static_cast<int>(vertices.size()), 0};
     scratch->bins = bins.data();
     scratch->log = &log;
-    const path::BatchRequest request{&scene.view(), filter.data(), x, y, 1, 1, sample, 1, desc.settings.seed};
+    path::BatchRequest request{&scene.view(), filter.data(), x, y, 1, 1, sample, 1, desc.settings.seed, {}, nullptr};
+    // The camera half alone: no photons are traced for one sample.
+    request.partition.camera = path::make_partition(scene.view().settings, scene.view().has_casters).camera;
     path::select_trace_batch()(request, *scratch, *result);
     std::ostringstream out;
     out << "pixel " << x << ", " << y << ", sample " << sample << ": " << log.n << " vertices\n";

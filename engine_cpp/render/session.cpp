@@ -4,6 +4,7 @@
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "path/batch.h"
+#include "render/photon_stage.h"
 #include "render/tiles.h"
 #include "simd/denormals.h"
 #include "trace/traceable_scene.h"
@@ -47,6 +48,7 @@ struct Worker {
     std::unique_ptr<path::Scratch> scratch = std::make_unique<path::Scratch>();
     std::unique_ptr<path::BatchResult> result = std::make_unique<path::BatchResult>();
     std::vector<std::int32_t> bins;
+    std::vector<photon::Photon> photons;  // of one batch
     std::uint64_t dropped = 0;
 };
 
@@ -64,10 +66,12 @@ std::string tbb_version() { return TBB_runtime_version(); }
 struct Session::Impl {
     std::shared_ptr<const scene::SceneDesc> desc;
     path::TraceBatch trace_batch;
+    path::TracePhotons trace_photons;
     int width;
     film::Film film;
     film::FilterTable filter_table;
     std::unique_ptr<trace::TraceableScene> scene;
+    std::unique_ptr<PhotonStage> photons;
     tbb::enumerable_thread_specific<Worker> workers;
 
     std::thread controller;
@@ -85,8 +89,8 @@ struct Session::Impl {
     std::string message;
     bool finished = false;
     Clock::time_point started, render_started;
-    double build_seconds = 0, render_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0, cpu_at_start = 0,
-           cpu_total = 0;
+    double build_seconds = 0, render_seconds = 0, camera_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0,
+           cpu_at_start = 0, cpu_total = 0;
     std::vector<std::string> scene_warnings;
     trace::BuildStats build_stats;
     path::Counters counters;
@@ -95,6 +99,7 @@ struct Session::Impl {
     Impl(std::shared_ptr<const scene::SceneDesc> d, int lanes)
         : desc(std::move(d)),
           trace_batch(path::select_trace_batch(lanes)),
+          trace_photons(path::select_trace_photons(lanes)),
           width(lanes == 0 ? path::best_width() : lanes),
           film(desc->settings),
           filter_table(film::make_filter_table(desc->settings.pixel_filter, desc->settings.filter_width)) {}
@@ -102,8 +107,10 @@ struct Session::Impl {
     void run();
     void build();
     void render();
-    void render_pass(int first_sample, int samples);
-    void render_tile(const film::Region& tile, int first_sample, int samples);
+    void render_pass(const Pass& pass, bool keep);
+    void render_tile(const film::Region& tile, const Pass& pass, bool keep);
+    /// This thread's memory, ready for a batch.
+    Worker& worker();
     void set_phase(Phase p, const std::string& text);
     void finish(Phase p, const std::string& text);
     bool out_of_time() const;
@@ -171,6 +178,7 @@ void Session::Impl::build() {
     scene_warnings.insert(scene_warnings.end(), found.begin(), found.end());
     build_stats = scene->stats();
     build_seconds = seconds_since(started);
+    photons = std::make_unique<PhotonStage>(*scene, film.region(), trace_photons);
 }
 
 void Session::Impl::render() {
@@ -180,34 +188,54 @@ void Session::Impl::render() {
         message.clear();
         render_started = Clock::now();
     }
-    int first = desc->settings.first_sample;
-    for (const int samples : pass_sizes(desc->settings.samples)) {
-        if (stop || (first > desc->settings.first_sample && out_of_time())) break;
-        render_pass(first, samples);
-        first += samples;
+    const int first = desc->settings.first_sample, most = photons->most_samples();
+    // Photons must have learned what they would have if the whole frame were rendered here.
+    if (photons->active() && first > 0) {
+        const int lead = photons->has_state() ? first : std::min(first, 1 << (k_training_passes - 1));
+        for (const Pass& pass : passes(0, lead, most)) {
+            if (stop) return;
+            if (photons->has_state() || pass.number < k_training_passes) render_pass(pass, false);
+        }
+    }
+    for (const Pass& pass : passes(first, desc->settings.samples, most)) {
+        if (stop || (pass.first > first && out_of_time())) break;
+        render_pass(pass, true);
     }
 }
 
-void Session::Impl::render_pass(int first_sample, int samples) {
-    const auto list = tiles(film.region(), samples);
+void Session::Impl::render_pass(const Pass& pass, bool keep) {
+    const auto photon_worker = [this] {
+        Worker& w = worker();
+        return PhotonWorker{w.scratch.get(), &w.photons};
+    };
+    if (!photons->trace(pass, photon_worker, stop)) return;
+    const Clock::time_point camera_started = Clock::now();
+    const auto list = tiles(film.region(), pass.samples);
     tbb::parallel_for(
         std::size_t{0}, list.size(),
         [&](std::size_t i) {
             if (stop) return;
-            render_tile(list[i], first_sample, samples);
+            render_tile(list[i], pass, keep);
             // The first pass is finished whatever the limit says: a whole picture, never a part of one.
-            if (first_sample > desc->settings.first_sample && out_of_time()) stop = true;
+            if (pass.first > desc->settings.first_sample && out_of_time()) stop = true;
         },
         tbb::simple_partitioner{});
+    if (!stop) photons->learn(pass);
+    const std::lock_guard lock(state_mutex);
+    camera_seconds += seconds_since(camera_started);
 }
 
-void Session::Impl::render_tile(const film::Region& tile, int first_sample, int samples) {
+Worker& Session::Impl::worker() {
+    Worker& w = workers.local();
+    w.bins.resize(static_cast<std::size_t>(scene->view().material_count) + 3);
+    w.scratch->bins = w.bins.data();
+    w.scratch->cancelled = &stop;
+    return w;
+}
+
+void Session::Impl::render_tile(const film::Region& tile, const Pass& pass, bool keep) {
     const FlushDenormals guard;
-    Worker& worker = workers.local();
-    path::Scratch& scratch = *worker.scratch;
-    worker.bins.resize(static_cast<std::size_t>(scene->view().material_count) + 3);
-    scratch.bins = worker.bins.data();
-    scratch.cancelled = &stop;
+    Worker& worker = this->worker();
     path::BatchRequest request;
     request.scene = &scene->view();
     request.filter_table = filter_table.data();
@@ -215,13 +243,15 @@ void Session::Impl::render_tile(const film::Region& tile, int first_sample, int 
     request.y = tile.y;
     request.width = tile.width;
     request.height = tile.height;
-    request.first_sample = first_sample;
-    request.samples = samples;
+    request.first_sample = pass.first;
+    request.samples = pass.samples;
     request.seed = desc->settings.seed;
+    request.partition = photons->partition();
+    request.photons = photons->gather();
     path::BatchResult& r = *worker.result;
-    trace_batch(request, scratch, r);
+    trace_batch(request, *worker.scratch, r);
     // A batch that was cut short lacks light: it is not counted.
-    if (stop) return;
+    if (stop || !keep) return;
     for (int i = 0; i < r.n; ++i) {
         film::Sample s;
         for (int c = 0; c < film::k_classes; ++c) {
@@ -235,8 +265,9 @@ void Session::Impl::render_tile(const film::Region& tile, int first_sample, int 
     {
         const std::lock_guard lock(picture_mutex);
         film.resolve(tile, picture);
+        photons->resolve(tile, desc->settings.exposure, picture);
     }
-    pixel_samples += std::int64_t{tile.width} * tile.height * samples;
+    pixel_samples += std::int64_t{tile.width} * tile.height * pass.samples;
     if (revision++ == 0) {
         const std::lock_guard lock(state_mutex);
         first_tile_seconds = seconds_since(started);
@@ -297,6 +328,13 @@ Progress Session::progress() const {
     }
     const auto& b = s.build_stats;
     p.memory_bytes = b.embree_bytes + b.geometry_bytes + b.image_bytes + b.light_bytes + 2 * s.film.memory_bytes();
+    if (s.photons && s.render_started != Clock::time_point{}) {
+        const PhotonStats photons = s.photons->stats();
+        p.passes = photons.passes;
+        p.photons_emitted = photons.emitted;
+        p.photons_stored = photons.stored;
+        p.memory_bytes += photons.bytes;
+    }
     return p;
 }
 
@@ -324,10 +362,19 @@ StatsJson Session::stats() const {
     j["seed"] = s.desc->settings.seed;
     j["threads"] = s.threads();
     j["lanes"] = s.width;
-    j["seconds"] = {
-        {"build", s.build_seconds},   {"render", s.render_seconds},       {"first_tile", s.first_tile_seconds},
-        {"images", b.images_seconds}, {"materials", b.materials_seconds}, {"geometry", b.geometry_seconds},
-        {"tree", b.bvh_seconds},      {"lights", b.lights_seconds}};
+    const PhotonStats photons = s.photons ? s.photons->stats() : PhotonStats{};
+    j["seconds"] = {{"camera", s.camera_seconds},
+                    {"photon_trace", photons.trace_seconds},
+                    {"photon_index", photons.index_seconds},
+                    {"photon_learn", photons.learn_seconds},
+                    {"build", s.build_seconds},
+                    {"render", s.render_seconds},
+                    {"first_tile", s.first_tile_seconds},
+                    {"images", b.images_seconds},
+                    {"materials", b.materials_seconds},
+                    {"geometry", b.geometry_seconds},
+                    {"tree", b.bvh_seconds},
+                    {"lights", b.lights_seconds}};
     j["cpu_seconds"] = s.cpu_total;
     j["counts"] = {{"camera_paths", c.camera_paths},   {"rays", c.rays},
                    {"shadow_rays", c.shadow_rays},     {"vertices", c.vertices},
@@ -339,6 +386,17 @@ StatsJson Session::stats() const {
                   {"images", b.image_bytes},
                   {"lights", b.light_bytes},
                   {"film", s.film.memory_bytes()}};
+    j["bytes"]["photons"] = photons.bytes;
+    j["photons"] = {{"passes", photons.passes},
+                    {"skipped_passes", photons.skipped_passes},
+                    {"training_passes", photons.training_passes},
+                    {"emitted", photons.emitted},
+                    {"stored", photons.stored},
+                    {"gathers", c.gathers},
+                    {"gathered", c.gathered},
+                    {"rays", c.photon_rays},
+                    {"dropped", c.photons_dropped},
+                    {"per_sample", photons.per_sample}};
     j["warnings"] = s.scene_warnings;
     return j.dump(2);
 }

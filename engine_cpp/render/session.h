@@ -25,6 +25,8 @@ struct Progress {
     std::int64_t memory_bytes = 0;
     std::string message;         ///< stage, or the error
     std::uint64_t revision = 0;  ///< grows whenever the picture changed
+    int passes = 0;              ///< of photons
+    std::int64_t photons_emitted = 0, photons_stored = 0;
 };
 
 /// Facts about a finished (or running) render; JSON object as text, for logs and --cardioid-stats.

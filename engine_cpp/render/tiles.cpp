@@ -17,15 +17,6 @@ film::Region tile_shape(int samples) {
 }
 }  // namespace
 
-std::vector<int> pass_sizes(int samples) {
-    std::vector<int> sizes;
-    for (int size = 1; samples > 0; size = std::min(2 * size, k_largest_pass)) {
-        sizes.push_back(std::min(size, samples));
-        samples -= sizes.back();
-    }
-    return sizes;
-}
-
 std::vector<film::Region> tiles(const film::Region& region, int samples) {
     const film::Region shape = tile_shape(samples);
     std::vector<film::Region> list;

@@ -227,8 +227,9 @@ void GeometryPool::fill(SceneView& view) const {
     g.attribute_names = attribute_names_;
     g.instances = infos_.data();
     g.meshes = mesh_infos_.data();
-    view.instances = {mesh_.data(), first_triangle_.data(), first_vertex_.data(),   smooth_.data(), baked_.data(),
-                      flip_.data(), slot_mask_.data(),      first_material_.data(), holdout_.data(), visibility_.data()};
+    view.instances = {mesh_.data(),    first_triangle_.data(), first_vertex_.data(), smooth_.data(),
+                      baked_.data(),   flip_.data(),           slot_mask_.data(),    first_material_.data(),
+                      holdout_.data(), visibility_.data()};
     view.packed_normals = packed_normals_.data();
     view.slots = slots_.data();
     view.slot_materials = slot_materials_.data();

@@ -4,11 +4,13 @@
 #include "render/replay.h"
 #include "render/session.h"
 #include "scene/error.h"
+#include "scene/json.h"
 #include "scene/replace_file.h"
 #include "scene/scene_file.h"
 #include "scene/validate.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -26,6 +28,7 @@ struct Options {
     double time_limit = -1;
     long long seed = -1;
     std::vector<int> pixel;
+    std::vector<std::string> set;
     bool quiet = false;
 };
 
@@ -39,6 +42,7 @@ int parse(int argc, char** argv, Options& o) {
     app.add_option("--seed", o.seed)->check(CLI::NonNegativeNumber);
     app.add_option("--lanes", o.lanes, "width of the kernels: 1, 8 or 16 (0: the best here)")
         ->check(CLI::IsMember({0, 1, 8, 16}));
+    app.add_option("--set", o.set, "name=value of any setting, as in the scene file (docs/python-api.md); repeatable");
     app.add_option("--stats", o.stats, "write what was counted as JSON");
     app.add_option("--pixel", o.pixel,
                    "x,y,sample: trace this sample alone and print its vertices (x, y from the bottom left)")
@@ -79,12 +83,27 @@ void write_picture(const film::Frame& frame, const std::string& path, const std:
     }
 }
 
+/// "name=value": value as JSON, or else as text.
+void apply(scene::Settings& settings, const std::vector<std::string>& assignments) {
+    if (assignments.empty()) return;
+    scene::Json json = scene::write_json(settings);
+    for (const std::string& a : assignments) {
+        const std::size_t at = a.find('=');
+        if (at == std::string::npos) throw scene::SceneError("--set " + a + ": name=value is wanted");
+        const std::string text = a.substr(at + 1);
+        scene::Json value = scene::Json::parse(text, nullptr, false);
+        json[a.substr(0, at)] = value.is_discarded() ? scene::Json(text) : std::move(value);
+    }
+    settings = scene::read_json<scene::Settings>(json);
+}
+
 void write_text(const std::string& path, const std::string& text) {
     scene::replace_file(path, [&](scene::FileWriter& file) { file.write(std::as_bytes(std::span(text))); });
 }
 
 int run(const Options& o) {
     auto desc = std::make_shared<scene::SceneDesc>(scene::load_scene(o.scene));
+    apply(desc->settings, o.set);
     if (o.samples > 0) desc->settings.samples = o.samples;
     if (o.threads >= 0) desc->settings.threads = o.threads;
     if (o.time_limit >= 0) desc->settings.time_limit = static_cast<float>(o.time_limit);

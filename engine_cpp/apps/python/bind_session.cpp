@@ -40,6 +40,9 @@ py::dict progress_dict(const render::Session& session) {
     d["memory_bytes"] = p.memory_bytes;
     d["message"] = p.message;
     d["revision"] = p.revision;
+    d["passes"] = p.passes;
+    d["photons_emitted"] = p.photons_emitted;
+    d["photons_stored"] = p.photons_stored;
     return d;
 }
 

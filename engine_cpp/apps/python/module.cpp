@@ -49,7 +49,10 @@ PYBIND11_MODULE(_core, m) {
     bind_session(m);
     m.def("version", &version, "Versions of the engine and its libraries, and the instruction set in use.");
     m.def(
-        "integrators", [] { return std::vector<std::string>{"PT"}; },
+        "integrators",
+        [] {
+            return std::vector<std::string>{"PT", "PTPPM", "SPPM"};
+        },
         "Integrators that this build offers, by the add-on's names.");
     m.def("available_threads", &render::available_threads);
 }

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a path goes on from a vertex: a lobe is chosen by its albedo, and value and density are those of all lobes of its class
+// (spec 1, mixed surfaces). Camera paths and photons share it.
+#pragma once
+
+#include "bsdf/kernels.h"
+#include "path/tracer.h"
+
+namespace cardioid::CD_ISA_NS {
+
+struct Choice {
+    Vec3 wi;
+    Spectrum f{0.0f};
+    Float pdf = 0.0f;
+    Mask valid, delta, transmitted, diffuse, specular, through;
+    Mask took_d;              ///< a D lobe was chosen, whether or not it gave a direction
+    Float probability_d = 0;  ///< of choosing a D lobe
+    Float blur = 0.0f;        ///< how far the lobe widens the pixel's cone
+    Float alpha = 1.0f;       ///< of a glossy lobe
+    Int lobe;
+};
+
+/// Which end the path comes from: refraction and bent normals treat radiance and flux differently.
+enum class Transport : bool { radiance, flux };
+
+/// Light that a lobe refracts is scaled by 1/eta², either where radiance is carried or where flux is (spec 1, adjoints).
+inline Float refraction_scale(const bsdf::Lobe& lobe, int i, Mask transmitted, bool scaled) {
+    if (!scaled || bsdf::is_diffuse_kind(lobe.kind) || lobe.kind == bsdf::LobeKind::ggx_reflection) return 1.0f;
+    const Float eta = load(lobe.eta + i);
+    return select(transmitted, 1.0f / (eta * eta), Float(1.0f));
+}
+
+/// Value of a lobe in direction wi for what is carried, f·|cos| with the factors that belong to it.
+/// Flux: the lobe seen from the other end, f(wi → wo)·|cos_s(wo)|·|cos_g(wi)| / |cos_g(wo)| (Veach 1997, 5.3).
+inline Spectrum carried_value(const path::VertexChunk& chunk, const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng,
+                              Spectrum f_cos, Mask delta, Transport transport, bool physical) {
+    const Mask transmitted = (dot(wo, ng) < Float(0.0f)) ^ (dot(wi, ng) < Float(0.0f));
+    const bool bends = chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind);
+    if (transport == Transport::radiance) {
+        if (bends) f_cos = f_cos * bump_shadow(chunk, lobe, i, wi);
+        return f_cos * refraction_scale(lobe, i, transmitted, physical);
+    }
+    const Vec3 n = load3(lobe.normal, i);
+    const Float geometric = abs(dot(ng, wi)) / max(abs(dot(ng, wo)), 1e-6f);
+    const Float turned = abs(dot(n, wo)) / max(abs(dot(n, wi)), 1e-6f);
+    const Mask swap = ~delta & ~transmitted;
+    Spectrum value = f_cos * turned;
+    if (any(swap)) value = select(swap, eval_lobe(lobe, i, wi, wo, ng).f_cos, value);
+    if (bends) value = value * bump_shadow(chunk, lobe, i, wo);
+    return value * (geometric * refraction_scale(lobe, i, transmitted, !physical));
+}
+
+/// Chooses a lobe by its albedo (or the way straight through) with u.x and samples it with what is left of u.x and u.y: each
+/// lobe's share of a stratified sequence stays stratified. `side` chooses between reflection and refraction.
+inline Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparency_pick, int i, Vec3 wo, Vec3 ng,
+                          Vec2 u, Float side, const scene::Settings& settings, Transport transport, Mask active) {
+    const float caustic_roughness = settings.caustic_roughness;
+    const bool physical = settings.physical_refraction;
+    Choice c;
+    c.wi = ng;
+    c.valid = c.delta = c.transmitted = c.diffuse = c.specular = c.took_d = mask_of(false);
+    c.lobe = Int(-1);
+    Float sum = 0.0f;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        const bsdf::Lobe& lobe = chunk.lobe[k];
+        const Float p = load(chunk.pick[k] + i);
+        const Mask here = active & (u.x >= sum) & (u.x < sum + p);
+        const Float rest = clamp((u.x - sum) / max(p, 1e-30f), 0.0f, 0.99999994f);
+        const Mask specular = is_specular(lobe, i, caustic_roughness);
+        sum += p;
+        c.probability_d += select(specular, Float(0.0f), p);
+        if (none(here)) continue;
+        const LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
+        const Spectrum f = carried_value(chunk, lobe, i, wo, s.wi, ng, s.f_cos, s.delta, transport, physical);
+        const Mask ok = here & s.valid;
+        c.wi = select(ok, s.wi, c.wi);
+        c.f = select(ok, f, c.f);
+        c.pdf = select(ok, s.pdf * p, c.pdf);
+        c.valid |= ok;
+        c.delta |= ok & s.delta;
+        c.transmitted |= ok & s.transmitted;
+        if (bsdf::is_diffuse_kind(lobe.kind)) {
+            c.diffuse |= ok;
+            c.blur = select(ok, Float(0.3f), c.blur);
+        } else {
+            c.alpha = select(ok, load(lobe.alpha_x + i), c.alpha);
+            c.blur = select(ok, 0.3f * c.alpha, c.blur);
+        }
+        c.specular |= ok & specular;
+        c.took_d |= here & ~specular;
+        c.lobe = select(ok, Int(k), c.lobe);
+    }
+    c.through = active & (u.x >= sum) & (u.x < sum + transparency_pick);
+    if (chunk.lobes < 2) return c;
+    const Mask mix = c.valid & ~c.delta;
+    if (none(mix)) return c;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        const bsdf::Lobe& lobe = chunk.lobe[k];
+        const Mask same_class = ~(is_specular(lobe, i, caustic_roughness) ^ c.specular);
+        const Mask here = mix & same_class & (c.lobe != Int(k));
+        if (none(here)) continue;
+        const LobeEval e = eval_lobe(lobe, i, wo, c.wi, ng);
+        const Spectrum f = carried_value(chunk, lobe, i, wo, c.wi, ng, e.f_cos, mask_of(false), transport, physical);
+        c.f = select(here, c.f + f, c.f);
+        c.pdf = select(here, c.pdf + e.pdf * load(chunk.pick[k] + i), c.pdf);
+    }
+    return c;
+}
+
+/// Fills chunk.pick with the lobes' shares of the albedo, transparency included; returns the share of going straight through.
+inline Float choose_by_albedo(path::VertexChunk& chunk, int i, Vec3 wo, Spectrum transparency) {
+    Float total = 0.0f;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        const Float albedo = max(average(lobe_albedo(chunk.lobe[k], i, wo)), 0.0f);
+        store(chunk.pick[k] + i, albedo);
+        total += albedo;
+    }
+    const Float through = max(average(transparency), 0.0f);
+    total += through;
+    const Float inv_total = select(total > Float(0.0f), 1.0f / total, Float(0.0f));
+    for (int k = 0; k < chunk.lobes; ++k) store(chunk.pick[k] + i, load(chunk.pick[k] + i) * inv_total);
+    return through * inv_total;
+}
+
+/// RayState::depth after a scattering event.
+inline Int count_bounce(Int depth, const Choice& c) {
+    const Mask reflected = ~c.transmitted;
+    const Int one_diffuse = select(reflected & c.diffuse, Int(1 << 8), Int(0));
+    const Int one_glossy = select(reflected & ~c.diffuse, Int(1 << 16), Int(0));
+    const Int one_transmission = select(c.transmitted, Int(1 << 24), Int(0));
+    return depth + Int(1) + one_diffuse + one_glossy + one_transmission;
+}
+
+inline Mask over_limits(const scene::Settings& settings, Int depth) {
+    return (byte_of(depth, 0) > Int(settings.max_bounces)) | (byte_of(depth, 1) > Int(settings.max_diffuse_bounces)) |
+           (byte_of(depth, 2) > Int(settings.max_glossy_bounces)) |
+           (byte_of(depth, 3) > Int(settings.max_transmission_bounces));
+}
+
+/// nodes::RayFlag of the ray that leaves.
+inline Int ray_kind(const Choice& c) {
+    Int kind = select(c.diffuse, Int(nodes::ray_diffuse), Int(nodes::ray_glossy));
+    kind = select(c.delta, Int(nodes::ray_glossy | nodes::ray_singular), kind);
+    return kind | select(c.transmitted, Int(nodes::ray_transmission), Int(nodes::ray_reflection));
+}
+
+}  // namespace cardioid::CD_ISA_NS

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "render/photon_stage.h"
+
+#include "light/light_data.h"
+#include "path/dimensions.h"
+#include "photon/guide.h"
+#include "simd/denormals.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+namespace cardioid::render {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Photons of a pass are kept to about this many by making passes small.
+constexpr double k_most_photons = 4e6;
+/// Photons for each camera path.
+constexpr double k_photons_per_path = 0.5;
+
+double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+std::vector<float> emission_power(const light::LightData& lights) {
+    return {lights.emission_power, lights.emission_power + lights.emitter_count};
+}
+
+/// Runs the index's jobs in the arena of the caller.
+void in_parallel(void*, int n, void (*body)(void*, int), void* argument) {
+    tbb::parallel_for(0, n, [=](int i) {
+        const FlushDenormals guard;
+        body(argument, i);
+    });
+}
+
+float luminance(const float (&c)[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+
+/// Photons traced together end up next to each other, whatever thread traced them.
+std::vector<photon::Photon> concatenate(const std::vector<std::vector<photon::Photon>>& batches) {
+    std::size_t total = 0;
+    for (const auto& b : batches) total += b.size();
+    std::vector<photon::Photon> all;
+    all.reserve(total);
+    for (const auto& b : batches) all.insert(all.end(), b.begin(), b.end());
+    return all;
+}
+
+}  // namespace
+
+struct PhotonStage::Impl {
+    const trace::SceneView& view;
+    film::Region region;
+    path::TracePhotons kernel;
+    path::Partition partition;
+    photon::PhotonGuide guide;
+    std::vector<float> start_power;      // probability of each emitter at the start
+    std::vector<float> emitter_density;  // path::PhotonPass
+    photon::PhotonMap map;
+    path::PhotonPass pass;
+    std::int64_t per_sample = 0;
+    std::uint32_t pass_seed = 0;
+    std::unique_ptr<std::atomic<std::uint32_t>[]> gathered;
+    std::vector<photon::Lesson> lessons;
+    std::vector<photon::PixelStatistics> pixels;  // per-pixel schedule
+    PhotonStats stats;
+    mutable std::mutex mutex;  // of stats
+    bool active = false;
+
+    Impl(const trace::TraceableScene& scene, const film::Region& r, path::TracePhotons k)
+        : view(scene.view()),
+          region(r),
+          kernel(k),
+          partition(path::make_partition(view.settings, view.has_casters)),
+          guide(emission_power(*view.lights)) {}
+
+    photon::Emission emission(std::uint32_t number) const;
+    void learn_densities();
+    std::vector<photon::Photon> trace(std::int64_t emitted, const std::function<PhotonWorker()>& worker,
+                                      const std::atomic<bool>& stop);
+};
+
+photon::Emission PhotonStage::Impl::emission(std::uint32_t number) const {
+    using namespace CD_ISA_NS;
+    const Int seed = hash(Int::of_bits(pass_seed)), index = reverse_bits(Int::of_bits(number));
+    const Vec2 point = sample_pair(seed, index, Int(pair_emission_point));
+    const Vec2 direction = sample_pair(seed, index, Int(pair_emission_direction));
+    const float u[photon::k_cube] = {point.x[0], point.y[0], direction.x[0], direction.y[0]};
+    return guide.draw(sample_pair(seed, index, Int(pair_choice)).x[0], u);
+}
+
+void PhotonStage::Impl::learn_densities() {
+    for (std::size_t e = 0; e < emitter_density.size(); ++e)
+        emitter_density[e] = start_power[e] * guide.gain(static_cast<std::int32_t>(e));
+}
+
+std::vector<photon::Photon> PhotonStage::Impl::trace(std::int64_t emitted, const std::function<PhotonWorker()>& worker,
+                                                     const std::atomic<bool>& stop) {
+    const auto count = static_cast<std::size_t>((emitted + path::k_batch - 1) / path::k_batch);
+    std::vector<std::vector<photon::Photon>> batches(count);
+    tbb::parallel_for(
+        std::size_t{0}, count,
+        [&](std::size_t b) {
+            if (stop) return;
+            const FlushDenormals guard;
+            const PhotonWorker w = worker();
+            path::PhotonRequest request;
+            request.scene = &view;
+            request.guide = &guide;
+            request.emitter_density = emitter_density.data();
+            request.classes = partition.photons;
+            request.first = static_cast<std::uint32_t>(b * path::k_batch);
+            request.count = static_cast<int>(std::min<std::int64_t>(path::k_batch, emitted - request.first));
+            request.seed = pass_seed;
+            w.stored->resize(static_cast<std::size_t>(path::k_batch) * (view.settings.max_bounces + 1));
+            request.stored = w.stored->data();
+            const int stored = kernel(request, *w.scratch);
+            batches[b].assign(w.stored->begin(), w.stored->begin() + stored);
+        },
+        tbb::simple_partitioner{});
+    return concatenate(batches);
+}
+
+PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region& region, path::TracePhotons kernel)
+    : impl_(std::make_unique<Impl>(scene, region, kernel)) {
+    Impl& s = *impl_;
+    const scene::Settings& settings = s.view.settings;
+    s.active = s.partition.photons != 0 && s.view.has_lights && !s.guide.empty();
+    // Nothing that photons could bring: camera paths keep all that they find.
+    if (!s.active && settings.integrator != scene::IntegratorKind::photon_mapping) s.partition = {};
+    if (!s.active) return;
+    s.per_sample = settings.photons > 0
+                       ? settings.photons
+                       : std::max<std::int64_t>(
+                             static_cast<std::int64_t>(k_photons_per_path * settings.width * settings.height), 1);
+    s.start_power = emission_power(*s.view.lights);
+    double sum = 0;
+    for (const float p : s.start_power) sum += static_cast<double>(p);
+    for (float& p : s.start_power) p = static_cast<float>(static_cast<double>(p) / sum);
+    s.emitter_density.resize(s.start_power.size());
+    s.learn_densities();
+    if (settings.radius_schedule == scene::RadiusSchedule::per_pixel)
+        s.pixels.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
+    s.stats.per_sample = s.per_sample;
+}
+
+PhotonStage::~PhotonStage() = default;
+
+const path::Partition& PhotonStage::partition() const { return impl_->partition; }
+bool PhotonStage::active() const { return impl_->active; }
+bool PhotonStage::has_state() const { return !impl_->pixels.empty(); }
+
+int PhotonStage::most_samples() const {
+    if (!impl_->active) return 8;
+    // One hit point a pass in the per-pixel schedule (thesis: two camera paths a pixel and pass).
+    const int bound = impl_->pixels.empty() ? 8 : 2;
+    const double fit = k_most_photons / static_cast<double>(impl_->per_sample);
+    int most = 1;
+    while (2 * most <= bound && 2 * most <= fit) most *= 2;
+    return most;
+}
+
+bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& worker, const std::atomic<bool>& stop) {
+    Impl& s = *impl_;
+    if (!s.active) {
+        const std::lock_guard lock(s.mutex);
+        ++s.stats.skipped_passes;
+        return true;
+    }
+    const scene::Settings& settings = s.view.settings;
+    const std::int64_t emitted = s.per_sample * pass.size;
+    const auto started = Clock::now();
+    s.pass_seed = settings.seed * 0x9e3779b9u + static_cast<std::uint32_t>(pass.number) * 0x85ebca6bu + 0x51ed270bu;
+    std::vector<photon::Photon> photons = s.trace(emitted, worker, stop);
+    if (stop) return false;
+    const double trace_seconds = seconds_since(started);
+    const auto indexing = Clock::now();
+    const std::size_t stored = photons.size();
+    s.map.build(std::move(photons), in_parallel, nullptr);
+    s.pass = {};
+    s.pass.map = s.map.view();
+    s.pass.emitted = static_cast<float>(emitted);
+    s.pass.emitter_density = s.emitter_density.data();
+    s.pass.radius = settings.photon_radius;
+    const auto alpha = static_cast<double>(settings.radius_shrink);
+    if (s.pixels.empty()) {
+        s.pass.radius *= static_cast<float>(std::sqrt(photon::memoryless_scale(pass.middle(), alpha)));
+    } else {
+        s.pass.pixels = s.pixels.data();
+        s.pass.x = s.region.x;
+        s.pass.y = s.region.y;
+        s.pass.stride = s.region.width;
+        s.pass.sample = pass.first;
+        s.pass.alpha = settings.radius_shrink;
+    }
+    if (pass.number < k_training_passes && settings.guided_emission) {
+        s.gathered = std::make_unique<std::atomic<std::uint32_t>[]>(std::max<std::size_t>(stored, 1));
+        s.pass.gathered = s.gathered.get();
+    }
+    const std::lock_guard lock(s.mutex);
+    ++s.stats.passes;
+    s.stats.emitted += emitted;
+    s.stats.stored += static_cast<std::int64_t>(stored);
+    s.stats.trace_seconds += trace_seconds;
+    s.stats.index_seconds += seconds_since(indexing);
+    s.stats.bytes = std::max(s.stats.bytes, s.map.memory_bytes() + s.guide.memory_bytes() +
+                                                static_cast<std::int64_t>(s.pixels.size() * sizeof(s.pixels[0])));
+    return true;
+}
+
+const path::PhotonPass* PhotonStage::gather() const { return impl_->active ? &impl_->pass : nullptr; }
+
+void PhotonStage::learn(const Pass& pass) {
+    Impl& s = *impl_;
+    if (!s.active || !s.pass.gathered) return;
+    const auto started = Clock::now();
+    const photon::PhotonMapView& map = s.map.view();
+    for (std::int64_t i = 0; i < map.count; ++i) {
+        const std::uint32_t times = s.gathered[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+        if (times == 0) continue;
+        const photon::Photon& q = map.photons[i];
+        const photon::Emission e = s.emission(q.source);
+        photon::Lesson lesson;
+        lesson.emitter = e.emitter;
+        std::copy(std::begin(e.u), std::end(e.u), lesson.u);
+        lesson.value = static_cast<float>(times) * std::fabs(luminance(q.flux)) * e.density;
+        lesson.density = e.density;
+        s.lessons.push_back(lesson);
+    }
+    s.guide.learn(s.lessons);
+    s.learn_densities();
+    s.gathered.reset();
+    if (pass.number + 1 >= k_training_passes) s.lessons = {};
+    const std::lock_guard lock(s.mutex);
+    ++s.stats.training_passes;
+    s.stats.learn_seconds += seconds_since(started);
+}
+
+void PhotonStage::resolve(const film::Region& part, float exposure, film::Frame& frame) const {
+    const Impl& s = *impl_;
+    if (s.pixels.empty()) return;
+    const auto emitted = static_cast<double>(stats().emitted);
+    for (int y = part.y; y < part.y + part.height; ++y) {
+        for (int x = part.x; x < part.x + part.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y - s.region.y) * s.region.width + (x - s.region.x);
+            const photon::PixelStatistics& p = s.pixels[i];
+            if (p.radius <= 0) continue;
+            const double area = 3.14159265358979 * static_cast<double>(p.radius) * static_cast<double>(p.radius);
+            const auto scale = static_cast<float>(static_cast<double>(exposure) / (emitted * area));
+            for (int c = 0; c < photon::k_photon_classes; ++c) film::add_to_class(frame, i, c + 1, p.tau[c], scale);
+        }
+    }
+}
+
+PhotonStats PhotonStage::stats() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->stats;
+}
+
+}  // namespace cardioid::render
