@@ -20,7 +20,22 @@ void put(EmissionRecord& e, int field, Float3 v) {
     e.value[field + 2] = v.z;
 }
 
-void put_frame(EmissionRecord& e, Float3 axis, Float3 away) {
+/// 1 - cos, exact for small angles.
+double rise(double angle) {
+    const double s = std::sin(0.5 * angle);
+    return 2 * s * s;
+}
+
+/// Directions within `edge` of the axis.
+struct LightCone {
+    Float3 axis;
+    double edge = 0;
+};
+
+/// The tangent is across the axis, as near to `away` as possible.
+void put_frame(EmissionRecord& e, const LightCone& cone, Float3 away) {
+    const Float3 axis = cone.axis;
+    e.value[emission::one_minus_cos] = static_cast<float>(rise(cone.edge));
     const Float3 across = away - axis * dot(axis, away);
     const Float3 other = std::fabs(axis.x) < 0.7f ? Float3{1, 0, 0} : Float3{0, 1, 0};
     const bool lies_across = dot(across, across) > 1e-10f;
@@ -28,15 +43,28 @@ void put_frame(EmissionRecord& e, Float3 axis, Float3 away) {
     put(e, emission::tangent, normalize(lies_across ? across : cross(axis, other)));
 }
 
+/// In the coordinates of light::emission.
+struct Rectangle {
+    double x0, x1, half_y;
+};
+constexpr Rectangle k_whole{0, 1, 0.5};
+
+/// Holds all directions of the cone within `half` of a direction that leans from its axis toward azimuth 1/2.
+Rectangle rectangle_around(const LightCone& cone, double lean, double half) {
+    const double whole = rise(cone.edge);
+    const double x0 = rise(std::max(lean - half, 0.0)) / whole;
+    const double x1 = rise(std::min(lean + half, cone.edge)) / whole;
+    const bool around_axis = lean <= half || lean + half >= k_pi;
+    const double turn = around_axis ? k_pi : std::asin(std::min(std::sin(half) / std::sin(lean), 1.0));
+    return {std::min(x0, x1), x1, turn / (2 * k_pi)};
+}
+
 /// Half of the density inside of the rectangle, half outside; the whole square where the rectangle is none or large.
-void put_rectangle(EmissionRecord& e, double x0, double x1, double half_y) {
+void put_rectangle(EmissionRecord& e, Rectangle r) {
+    const double size = (r.x1 - r.x0) * 2 * r.half_y;
+    const bool aimed = size > 1e-12 && size < 0.5;
+    const auto [x0, x1, half_y] = aimed ? r : k_whole;
     const double area = (x1 - x0) * 2 * half_y;
-    const bool aimed = area > 1e-12 && area < 0.5;
-    if (!aimed) {
-        x0 = 0;
-        x1 = 1;
-        half_y = 0.5;
-    }
     const double in = aimed ? 0.5 / area : 1, out = aimed ? 0.5 / (1 - area) : 1;
     const double across = 2 * half_y * in + (1 - 2 * half_y) * out;
     const auto put_value = [&](int field, double v) { e.value[field] = static_cast<float>(v); };
@@ -56,23 +84,22 @@ bool sends_from_a_place(EmitterKind kind) {
 
 /// Flux of a lamp with a place, into all directions.
 double lamp_flux(const LampRecord& r, double brightness) {
-    const double radius = static_cast<double>(r.value[lamp::radius]);
+    const double radius = double{r.value[lamp::radius]};
     const double intensity = r.kind() == EmitterKind::delta_point ? brightness : brightness * k_pi * radius * radius;
     if ((r.number[lamp::flags] & lamp::is_spot) == 0) return 4 * k_pi * intensity;
-    const double open = 1 - static_cast<double>(r.value[lamp::spot_cos]);
-    const double blend = std::min(1 / static_cast<double>(r.value[lamp::spot_inv_blend]), open);
+    const double open = 1 - double{r.value[lamp::spot_cos]};
+    const double blend = std::min(1 / double{r.value[lamp::spot_inv_blend]}, open);
     return 2 * k_pi * intensity * (open - 0.5 * blend);
 }
 
 double sun_irradiance(const LampRecord& r, double brightness) {
-    const double rise = static_cast<double>(r.value[lamp::sun_one_minus_cos]);
+    const double rise = double{r.value[lamp::sun_one_minus_cos]};
     return r.kind() == EmitterKind::delta_sun ? brightness : brightness * k_pi * rise * (2 - rise);
 }
 
 /// m² of the cross section that counts: photons aimed at the casters are half of all.
 double cross_section(const EmissionTargets& targets) {
-    const double scene = static_cast<double>(targets.scene.radius),
-                 casters = static_cast<double>(targets.casters.radius);
+    const double scene = double{targets.scene.radius}, casters = double{targets.casters.radius};
     const double whole = k_pi * scene * scene;
     return casters > 0 ? std::min(2 * k_pi * casters * casters, whole) : whole;
 }
@@ -83,27 +110,25 @@ EmissionRecord make_emission_record(const LampRecord& r, const Sphere& casters) 
     EmissionRecord e;
     if (!sends_from_a_place(r.kind())) return e;
     const bool spot = (r.number[lamp::flags] & lamp::is_spot) != 0;
-    const double open = spot ? static_cast<double>(r.value[lamp::spot_one_minus_cos]) : 2.0;
+    LightCone light;
+    light.axis = get(r, lamp::normal);
+    light.edge = spot ? std::acos(std::clamp(1 - double{r.value[lamp::spot_one_minus_cos]}, -1.0, 1.0)) : k_pi;
     const Float3 to = Float3{casters.center[0], casters.center[1], casters.center[2]} - get(r, lamp::position);
-    const double distance = static_cast<double>(length(to));
-    const double reach = static_cast<double>(casters.radius) + static_cast<double>(r.value[lamp::radius]);
-    const bool aimed = casters.radius > 0 && distance > reach && std::isfinite(distance);
-    const Float3 toward = aimed ? normalize(to) : get(r, lamp::normal);
-    const Float3 axis = open >= 2 ? toward : get(r, lamp::normal);
-    e.value[emission::one_minus_cos] = static_cast<float>(open);
-    put_frame(e, axis, toward * -1.0f);
-    if (!aimed) {
-        put_rectangle(e, 0, 1, 0.5);
+    const double distance = double{length(to)}, reach = double{casters.radius} + double{r.value[lamp::radius]};
+    if (!(casters.radius > 0) || !(distance > reach) || !std::isfinite(distance)) {
+        put_frame(e, light, light.axis);
+        put_rectangle(e, k_whole);
         return e;
     }
+    const Float3 toward = normalize(to);
     const double half = std::asin(reach / distance);
-    const double lean = open >= 2 ? 0 : std::acos(std::clamp(static_cast<double>(dot(axis, toward)), -1.0, 1.0));
-    const double edge = std::acos(std::clamp(1 - open, -1.0, 1.0));
-    const bool around_axis = lean <= half || lean + half >= k_pi;
-    const auto x_at = [&](double angle) { return 2 * std::pow(std::sin(0.5 * angle), 2) / open; };
-    const double x0 = x_at(std::max(lean - half, 0.0)), x1 = std::min(x_at(std::min(lean + half, edge)), 1.0);
-    const double half_y = around_axis ? 0.5 : std::asin(std::min(std::sin(half) / std::sin(lean), 1.0)) / (2 * k_pi);
-    put_rectangle(e, std::min(x0, x1), x1, half_y);
+    const double lean = std::acos(std::clamp(double{dot(light.axis, toward)}, -1.0, 1.0));
+    const LightCone around_casters{toward, std::min(light.edge + lean, k_pi)};
+    const double share = rise(half) / rise(around_casters.edge);
+    if (light.edge >= k_pi || (lean <= half && share < 0.5)) light = around_casters;
+    const bool same_axis = light.axis == toward;
+    put_frame(e, light, toward * -1.0f);
+    put_rectangle(e, same_axis ? Rectangle{0, share, 0.5} : rectangle_around(light, lean, half));
     return e;
 }
 
@@ -112,9 +137,11 @@ float lamp_emission_power(const LampInput& in, const LampRecord& r, const Emissi
     if (!(r.bounds.energy > 0)) return 0;
     const double brightness = static_cast<double>(mean_absolute(get(r, lamp::radiance) * in.program_estimate));
     if (r.at_infinity()) return static_cast<float>(sun_irradiance(r, brightness) * cross_section(targets));
-    if (!sends_from_a_place(r.kind()))
-        return static_cast<float>(k_pi * brightness / static_cast<double>(r.value[lamp::inv_area]));
-    const float share = std::max(1 / e.value[emission::density_in], k_least_share);
+    if (!sends_from_a_place(r.kind())) return static_cast<float>(k_pi * brightness / double{r.value[lamp::inv_area]});
+    // The cone of the record may be wider than that of a spot.
+    const bool spot = (r.number[lamp::flags] & lamp::is_spot) != 0;
+    const float wider = spot ? e.value[emission::one_minus_cos] / r.value[lamp::spot_one_minus_cos] : 1.0f;
+    const float share = std::clamp(wider / e.value[emission::density_in], k_least_share, 1.0f);
     return static_cast<float>(lamp_flux(r, brightness)) * share;
 }
 
@@ -123,7 +150,7 @@ float triangle_emission_power(const EmissiveTriangle& t, float area) {
 }
 
 float world_emission_power(float brightness, const EmissionTargets& targets) {
-    return static_cast<float>(4 * k_pi * static_cast<double>(brightness) * cross_section(targets));
+    return static_cast<float>(4 * k_pi * double{brightness} * cross_section(targets));
 }
 
 Sphere sphere_around(Float3 low, Float3 high) {

@@ -231,10 +231,9 @@ std::unique_ptr<RaySpace> space_of(const LightTable& table, const Source& source
     if (kind == EmitterKind::sun)
         return make(DiskAcross(aim, around, at * -1.0f, static_cast<double>(r[lamp::sun_one_minus_cos]), 0, 1));
     if (kind == EmitterKind::sphere || kind == EmitterKind::facing_disk) {
-        // Wide cones are split into cells of their own size.
-        const bool spot = (data.lamp_int[lamp::flags] & lamp::is_spot) != 0;
-        const double rise = spot ? static_cast<double>(r[lamp::spot_one_minus_cos]) : 2;
-        const Float3 axis = spot ? field(r, lamp::normal) : Float3{0, 0, 1};
+        // The directions that the lamp was given, in cells of their own size.
+        const Float3 axis = field(data.lamp_emission, light::emission::axis);
+        const auto rise = static_cast<double>(data.lamp_emission[light::emission::one_minus_cos]);
         const auto radius = static_cast<double>(r[lamp::radius]);
         return make(DiskAcross(at, radius, axis, rise, 2 * r[lamp::radius], kind == EmitterKind::sphere ? 2 : 1));
     }
