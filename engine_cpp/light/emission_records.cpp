@@ -59,11 +59,15 @@ Rectangle rectangle_around(const LightCone& cone, double lean, double half) {
     return {std::min(x0, x1), x1, turn / (2 * k_pi)};
 }
 
-/// Half of the density inside of the rectangle, half outside; the whole square where the rectangle is none or large.
+/// Half of the density inside of the rectangle, half outside; the whole square where the rectangle is none, large, or too thin
+/// for float.
 void put_rectangle(EmissionRecord& e, Rectangle r) {
     const double size = (r.x1 - r.x0) * 2 * r.half_y;
-    const bool aimed = size > 1e-12 && size < 0.5;
-    const auto [x0, x1, half_y] = aimed ? r : k_whole;
+    const bool aimed = size > 1e-12 && r.x1 - r.x0 > 1e-5 * r.x0 && size < 0.5;
+    const Rectangle& exact = aimed ? r : k_whole;
+    // As kernels read them: the densities are those of the rounded borders.
+    const double x0 = double{static_cast<float>(exact.x0)}, x1 = double{static_cast<float>(exact.x1)},
+                 half_y = double{static_cast<float>(exact.half_y)};
     const double area = (x1 - x0) * 2 * half_y;
     const double in = aimed ? 0.5 / area : 1, out = aimed ? 0.5 / (1 - area) : 1;
     const double across = 2 * half_y * in + (1 - 2 * half_y) * out;
@@ -122,7 +126,7 @@ EmissionRecord make_emission_record(const LampRecord& r, const Sphere& casters) 
     }
     const Float3 toward = normalize(to);
     const double half = std::asin(reach / distance);
-    const double lean = std::acos(std::clamp(double{dot(light.axis, toward)}, -1.0, 1.0));
+    const double lean = 2 * std::asin(std::min(0.5 * double{length(light.axis - toward)}, 1.0));
     const LightCone around_casters{toward, std::min(light.edge + lean, k_pi)};
     const double share = rise(half) / rise(around_casters.edge);
     if (light.edge >= k_pi || (lean <= half && share < 0.5)) light = around_casters;
