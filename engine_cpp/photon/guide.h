@@ -4,30 +4,13 @@
 // binary tree of boxes with a constant density in each leaf. A fixed share stays as at the start, so no light is ever lost.
 #pragma once
 
+#include "photon/emission.h"
+
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace cardioid::photon {
-
-inline constexpr int k_cube = 4;  ///< point (2), direction (2)
-
-/// One photon's choice.
-struct Emission {
-    std::int32_t emitter = -1;
-    float u[k_cube] = {};
-    /// Density of (emitter, u) against choosing u uniformly and the emitter never: probability of the emitter × density in the
-    /// cube. Flux is divided by it.
-    float density = 0;
-};
-
-/// A photon of a training pass that pixels gathered.
-struct Lesson {
-    std::int32_t emitter;
-    float u[k_cube];
-    float value;  ///< what it added to the picture, × density with which it was emitted: unbiased for the integrand
-    float density;
-};
 
 class PhotonGuide {
 public:
