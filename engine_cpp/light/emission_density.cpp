@@ -19,9 +19,7 @@ Float ball_density(const LightData& lights, int id, RecordIndex index, Vec3 p, V
     const Float per_section = 1.0f / max(ball_section(r2), 1e-37f);
     const Float directions = directions_pdf(lights, place, -d);
     if (disk) return directions * per_section;
-    // p may lie on the sphere: then it is the end of a ray from inside if it is on the far side.
-    const Vec3 from = p - fetch3(lights.lamp, index, lamp::position);
-    const Mask inside = (length_squared(from) < r2 * 0.9999f) | (dot(from, d) > Float(0.0f));
+    const Mask inside = length_squared(p - fetch3(lights.lamp, index, lamp::position)) <= r2;
     return select(inside, inside_pdf(), outside_pdf(directions)) * per_section;
 }
 

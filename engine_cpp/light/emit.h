@@ -36,7 +36,7 @@ struct PhotonRay {
 PhotonRay emit_photon(const light::LightData& lights, Int emitter, Vec2 u_point, Vec2 u_direction, Mask active);
 
 /// PhotonRay::density of the ray that a camera path has met from the other end: it hit lamp `id`, travelling along
-/// the unit direction d from p (any point of the ray up to the lamp). 0: emit_photon never makes it.
+/// the unit direction d from p, its origin (not the hit: a sphere is another lamp from inside). 0: emit_photon never makes it.
 Float lamp_emission_density(const light::LightData& lights, int id, Vec3 p, Vec3 d, Mask active);
 /// Of a hit on emissive triangle (instance, triangle); 0 where it is not in the table. `emitter`: its id, -1 where there is none.
 Float triangle_emission_density(const light::LightData& lights, Int instance, Int triangle, Int& emitter, Mask active);
