@@ -113,7 +113,7 @@ k_settings = (
     Setting("photon_radius", "float", "Radius",
             "How far around it a pixel looks for photons at first, in pixels; the radius shrinks while rendering. "
             "Smaller: sharper caustics with more noise",
-            2.0, None, "photon_radius", options={"min": 0.01, "max": 1000.0, "soft_min": 0.5, "soft_max": 10.0,
+            1.0, None, "photon_radius", options={"min": 0.01, "max": 1000.0, "soft_min": 0.5, "soft_max": 10.0,
                                                  "subtype": "PIXEL"}),
     Setting("caustic_roughness", "float", "Roughness Limit",
             "Reflections and refractions up to this roughness throw their caustics by photons, rougher ones by path "

@@ -7,6 +7,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
+from caustics_kit import ball, floor_scene, glass, lamp
 from scene_kit import add_square, emission, lit_world, reset
 
 LONG_ENOUGH = 1 << 20  # samples that no test waits for
@@ -51,7 +52,17 @@ def huge() -> None:
     save("huge")
 
 
+def caustic() -> None:
+    """A glass ball under a lamp, on a machine of 4 GB."""
+    scene = floor_scene()
+    ball("Glass", glass("Glass"))
+    lamp("Lamp")
+    scene.cardioid.memory_limit = 4096
+    save("caustic")
+
+
 plain()
 endless()
+caustic()
 heavy()
 huge()

@@ -4,28 +4,12 @@ was wrong. The scenes are in cases_materials.py and cases_objects.py; all run in
 
 from __future__ import annotations
 
-import os
-
 import pytest
-from conftest import Case
+from conftest import IS_CARDIOID, finished
 
 LIGHT = [0.25, 0.5, 0.75]
 PINK = [1.0, 0.0, 1.0]
 BLACK = [0.0, 0.0, 0.0]
-# Cycles has no duty to name what it drops; with it these tests only check the scenes themselves.
-IS_CARDIOID = os.environ.get("CARDIOID_TEST_ENGINE", "CARDIOID") == "CARDIOID"
-
-
-def finished(cases: dict[str, Case], name: str, *mentions: str) -> dict:
-    """The result of a case that must render; Blender's output must contain each of `mentions`."""
-    assert name in cases, f"Blender did not survive until {name}; it got to {list(cases)[-1]}"
-    case = cases[name]
-    case.check_clean()
-    assert case.data["status"] == "FINISHED", case.data["status"]
-    assert case.data["finite"]
-    for word in mentions if IS_CARDIOID else ():
-        assert word.lower() in case.text.lower(), f"'{word}' is not in:\n{case.text}"
-    return case.data
 
 
 def near(values: list[float], expected: list[float], tolerance: float = 2e-3) -> None:

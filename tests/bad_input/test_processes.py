@@ -50,6 +50,9 @@ def test_a_good_file_renders(blender: Blender, files: Path, tmp_path: Path) -> N
         ("--cardioid-threads", "-3", "-3"),
         ("--cardioid-integrator", "MAGIC", "MAGIC"),
         ("--cardioid-time-limit", "nan", "nan"),
+        ("--cardioid-photons", "-1", "at least 0"),
+        ("--cardioid-caustic-roughness", "2", "from 0 to 1"),
+        ("--cardioid-indirect-caustics", "perhaps", "photons, path_tracing, off"),
         ("--cardioid-sampels", "4", "no such option"),
     ],
 )
@@ -71,6 +74,16 @@ def test_a_picture_that_does_not_fit_memory_is_an_error_first(blender, files, tm
     assert len(errors) == 1, ended.text[-3000:]
     assert re.search(r"needs about [\d.]+ GB.*16000.*this machine has [\d.]+ GB", errors[0]), errors[0]
     assert "Sample 1" not in ended.text
+
+
+def test_photons_that_do_not_fit_memory_are_an_error_first(blender, files, tmp_path) -> None:
+    photons = "--cardioid-photons", str(10**9)
+    ended = blender.render_file(files / "caustic.blend", tmp_path / "p_####", *photons, seconds=60)
+    ended.check_clean()
+    errors = [line for line in ended.text.splitlines() if line.startswith("Error: Cardioid")]
+    assert len(errors) == 1, ended.text[-3000:]
+    assert re.search(r"needs about [\d.]+ GB.*photons.*memory limit is 4.0 GB", errors[0]), errors[0]
+    assert "Sample 1" not in ended.text and not list(tmp_path.glob("p_*"))
 
 
 @pytest.fixture
