@@ -124,13 +124,12 @@ float CubeTree::draw(float (&u)[k_cube]) const {
         float& t = u[node->next & 3u];
         const bool right = t >= node->left;
         t = (t - (right ? node->left : 0.0f)) * (right ? node->enlarge_right : node->enlarge_left);
-        t = std::min(t, k_below_one);
         node = nodes_.data() + (node->next >> 2) + (right ? 1 : 0);
     }
     const Leaf& leaf = leaves_[node->next & ~k_is_leaf];
     for (int k = 0; k < k_cube; ++k) {
         const float upper = leaf.lower[k] + leaf.size[k];
-        const float place = leaf.lower[k] + u[k] * leaf.size[k];
+        const float place = leaf.lower[k] + std::min(u[k], k_below_one) * leaf.size[k];
         // Rounding must not carry it into the next leaf.
         u[k] = place < upper ? place : std::bit_cast<float>(std::bit_cast<std::uint32_t>(upper) - 1);
     }

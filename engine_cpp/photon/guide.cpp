@@ -17,7 +17,7 @@ constexpr double k_uniform = 0.2;
 /// Bounds of the strength of the belief that emitters matter by their power, in lessons.
 constexpr double k_weakest_prior = 1e-6, k_strongest_prior = 1e4;
 constexpr std::size_t k_fewest_shares = 32;
-constexpr std::size_t k_most_samples = std::size_t{1} << 17;
+constexpr std::size_t k_most_lessons = std::size_t{1} << 16;
 constexpr float k_most_gain = 1e4f;
 
 bool usable(const Lesson& lesson, const Pick& start) {
@@ -54,31 +54,36 @@ void limit(std::vector<Weighted>& lessons) {
     for (Weighted& w : lessons) w.weight = std::min(w.weight, limit);
 }
 
-/// Lessons grouped by emitter, in their order within each.
-std::vector<Weighted> by_emitter(const std::vector<Lesson>& lessons, const Pick& start) {
-    std::vector<std::uint32_t> next(start.size() + 1);
-    double largest = 0;
-    for (const Lesson& l : lessons) {
-        if (!usable(l, start)) continue;
-        ++next[static_cast<std::size_t>(l.emitter) + 1];
-        largest = std::max(largest, static_cast<double>(l.value) / std::sqrt(static_cast<double>(l.density)));
-    }
-    for (std::size_t e = 1; e < next.size(); ++e) next[e] += next[e - 1];
-    std::vector<Weighted> sorted(next.back());
-    for (const Lesson& l : lessons) {
-        if (!usable(l, start)) continue;
-        const double root = static_cast<double>(l.value) / std::sqrt(static_cast<double>(l.density)) / largest;
-        sorted[next[static_cast<std::size_t>(l.emitter)]++] = {&l, root * root};
-    }
-    limit(sorted);
-    return sorted;
-}
-
-/// The same choice of samples every time, and none of the photons' own patterns in it.
+/// The same choice of lessons every time, and none of the photons' own patterns in it.
 bool chosen(std::size_t index, double share) {
     std::uint64_t h = (index + 1) * 0x9e3779b97f4a7c15u;
     h = (h ^ h >> 31) * 0xbf58476d1ce4e5b9u;
     return static_cast<double>(h >> 11) * 0x1p-53 < share;
+}
+
+/// Lessons grouped by emitter, in their order within each; a fixed choice where there are more than are worth the time.
+std::vector<Weighted> by_emitter(const std::vector<Lesson>& lessons, const Pick& start) {
+    const double share = static_cast<double>(k_most_lessons) / static_cast<double>(lessons.size());
+    const auto root = [](const Lesson& l) {
+        return static_cast<double>(l.value) / std::sqrt(static_cast<double>(l.density));
+    };
+    std::vector<const Lesson*> used;
+    std::vector<std::uint32_t> next(start.size() + 1);
+    double largest = 0;
+    for (std::size_t i = 0; i < lessons.size(); ++i) {
+        if ((share < 1 && !chosen(i, share)) || !usable(lessons[i], start)) continue;
+        used.push_back(&lessons[i]);
+        ++next[static_cast<std::size_t>(lessons[i].emitter) + 1];
+        largest = std::max(largest, root(lessons[i]));
+    }
+    for (std::size_t e = 1; e < next.size(); ++e) next[e] += next[e - 1];
+    std::vector<Weighted> sorted(used.size());
+    for (const Lesson* l : used) {
+        const double r = root(*l) / largest;
+        sorted[next[static_cast<std::size_t>(l->emitter)]++] = {l, r * r};
+    }
+    limit(sorted);
+    return sorted;
 }
 
 /// How many lessons the powers are worth as a forecast of `found`, the lessons of each emitter out of `count`: counts are Poisson
@@ -158,7 +163,6 @@ float PhotonGuide::density(std::int32_t emitter, const float (&u)[k_cube]) const
 
 /// Trees, and the probabilities of emitters.
 void PhotonGuide::Storage::learn_trees(const std::vector<Weighted>& lessons) {
-    const double share = std::min(1.0, static_cast<double>(k_most_samples) / static_cast<double>(lessons.size()));
     // As many lessons as there would have been at the start's density, and their mean square contribution.
     double count = 0, square = 0, powers = 0;
     for (const Weighted& w : lessons) {
@@ -180,7 +184,6 @@ void PhotonGuide::Storage::learn_trees(const std::vector<Weighted>& lessons) {
             weight[static_cast<std::size_t>(emitter)] += lessons[end].weight;
             found[static_cast<std::size_t>(emitter)] +=
                 start.probability(emitter) / static_cast<double>(lessons[end].lesson->density);
-            if (share < 1 && !chosen(end, share)) continue;
             const float(&u)[k_cube] = lessons[end].lesson->u;
             samples.push_back({{u[0], u[1], u[2], u[3]}, static_cast<float>(lessons[end].weight)});
         }

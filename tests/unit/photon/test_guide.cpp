@@ -48,6 +48,7 @@ TEST(PhotonGuide, StartsByPower) {
     EXPECT_FLOAT_EQ(guide.density(2, u), 0.75f);
     EXPECT_EQ(guide.density(1, u), 0);
     EXPECT_EQ(guide.gain(0), 1);
+    EXPECT_EQ(PhotonGuide({0, 0, 1}).draw(0, u).emitter, 2);
 }
 
 TEST(PhotonGuide, DensityIntegratesToOne) {
@@ -126,6 +127,22 @@ TEST(PhotonGuide, KeepsThePictureAndItsFloor) {
             ASSERT_GE(guide.density(e, random_cube(rng).u), 0.1999f / static_cast<float>(problem.emitters));
         }
     }
+}
+
+TEST(PhotonGuide, LessonsCountByTheDensityTheyWereEmittedWith) {
+    // Both halves bring the same; a pass that knew the left one better has emitted four times as many there.
+    Rng rng(14);
+    std::vector<Lesson> lessons;
+    for (int i = 0; i < 10000; ++i) {
+        const Cube c = random_cube(rng);
+        const bool right = i % 5 == 0;
+        lessons.push_back({0, {0.5f * c.u[0] + (right ? 0.5f : 0.0f), c.u[1], c.u[2], c.u[3]}, 1, right ? 0.4f : 1.6f});
+    }
+    PhotonGuide guide({1});
+    guide.learn(lessons);
+    double left = 0;
+    for (int i = 0; i < 100000; ++i) left += guide.draw(unit_float(rng), random_cube(rng).u).u[0] < 0.5f ? 1e-5 : 0;
+    EXPECT_NEAR(left, 0.5, 0.02);
 }
 
 TEST(PhotonGuide, GathersFiveTimesAsManyAtLessError) {
@@ -298,6 +315,7 @@ TEST(PhotonGuide, AMillionEmitters) {
     }
     guide.learn(lessons);
     EXPECT_LT(guide.memory_bytes(), 40 * n);
+    EXPECT_EQ(guide.gain(777), 1);
     int seen = 0;
     for (int i = 0; i < 100000; ++i) {
         const Emission e = guide.draw((static_cast<float>(i) + 0.5f) / 100000, random_cube(rng).u);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -57,6 +58,24 @@ TEST(PhotonMap, FindsWhatTheLoopOverAllFindsInItsOrder) {
         }
         // Queries that find nothing anywhere would prove nothing.
         EXPECT_EQ(found > set.queries.size() / 10, !set.photons.empty()) << set.name;
+    }
+}
+
+TEST(PhotonMap, FindsPhotonsOnTheSphere) {
+    // Along an axis, where the ball touches the box that the cells are chosen by.
+    Rng rng(5);
+    for (const PhotonSet& set : photon_sets()) {
+        PhotonMap map;
+        map.build(set.photons, nullptr, nullptr);
+        for (int i = 0; i < 2000 && !set.photons.empty(); ++i) {
+            const Photon& p = set.photons[rng() % set.photons.size()];
+            float center[3] = {p.position[0], p.position[1], p.position[2]};
+            float& moved = center[i % 3];
+            const float before = moved;
+            moved += set.queries[static_cast<std::size_t>(i) % set.queries.size()].radius * (i % 2 == 0 ? 1.0f : -1.0f);
+            const float radius = std::abs(before - moved);
+            ASSERT_EQ(queried(map.view(), center, radius), literal(map.view(), center, radius)) << set.name;
+        }
     }
 }
 
