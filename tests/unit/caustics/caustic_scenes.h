@@ -5,18 +5,22 @@
 
 #include "analytic/scenes.h"
 
+#include <cstdlib>
 #include <string>
 
 namespace cardioid::test {
+
+/// CARDIOID_HEAVY=1: more samples and more variants, for a nightly run.
+inline bool heavy() { return std::getenv("CARDIOID_HEAVY") != nullptr; }
 
 /// One comparison of photons with path tracing; samples and photons are chosen for the intervals that tests ask for.
 struct CausticCase {
     std::string name;
     scene::SceneDesc scene;
-    int path_samples = 512;       ///< of path tracing
-    int photon_samples = 128;     ///< camera paths a pixel of the other two
-    std::int64_t photons = 4000;  ///< emitted for each of them
-    float radius = 0.5f;          ///< first of the two radii, in footprints
+    int path_samples = heavy() ? 1024 : 384;  ///< of path tracing
+    int photon_samples = heavy() ? 192 : 48;  ///< camera paths a pixel of the other two
+    std::int64_t photons = 4000;              ///< emitted for each of them
+    float radius = 0.5f;                      ///< first of the two radii, in footprints
     float finer =
         0.70710678f;     ///< second radius over the first: 1/√2 for a quadratic bias, 1/2 for the linear one of edges
     bool rough = false;  ///< lobes of class S that are no deltas: path tracing classes them otherwise
@@ -64,7 +68,10 @@ inline CausticCase glass_and_chrome() {
     m.add(sphere({-0.7f, 0.2f, 0.8f}, 0.6f, 4, true), glass(1, 1.5f));
     m.add(sphere({0.75f, 0.3f, 0.7f}, 0.6f, 4, true), glossy(0.9f, 0));
     m.perspective({0, -2.4f, 2.2f}, {0, 0.2f, 0.3f}, 0.4f);
-    return caustic_case("glass and chrome spheres", m);
+    CausticCase c = caustic_case("glass and chrome spheres", m);
+    c.radius = 0.4f;
+    c.finer = 0.5f;  // the balls show the room's corners
+    return c;
 }
 
 /// The wall's caustic, made by the glass sphere and by the floor's mirror half, is seen in the floor.
@@ -88,7 +95,7 @@ inline CausticCase bouncing_caustic() {
     m.area_lamp({0, 0, 2.7f}, {0, 0, 0}, 1.6f, 1.6f, 6);
     m.perspective({2.8f, -3.2f, 0.8f}, {2.4f, 0.4f, 3.2f}, 0.3f);
     CausticCase c = caustic_case("caustic that bounces on", m);
-    c.path_samples = 1024;
+    c.path_samples *= 2;
     return c;
 }
 
@@ -137,8 +144,9 @@ inline CausticCase coarse_receiver() {
     m.area_lamp({-1, -1, 2.6f}, {0, 0, 0}, 2, 2, 5);
     m.perspective({0, -3, 1}, {0, 0, 0.1f}, 0.18f);
     CausticCase c = caustic_case("coarse chalk ball", m);
-    c.radius = 0.5f;
     c.finer = 0.5f;
+    c.photons *= 3;
+    c.block_bound = 0.15;
     return c;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two integrators, one picture: renders with different seeds are replicates, means of the whole picture and of
-// 16 blocks are compared by Welch's test, and must be shown to be close (two one-sided tests): what is too noisy to tell fails.
+// 16 blocks are compared by Welch's test, and must be shown to be close (two one-sided tests): what is too noisy to
+// tell fails.
 #pragma once
 
 #include "analytic/replicates.h"

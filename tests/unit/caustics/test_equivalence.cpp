@@ -29,8 +29,8 @@ void expect_classes(const CausticCase& c, const Pictures& judge, const Pictures&
     const double picture = moments_of(judge, [](const auto& m) { return m[0].whole; }).mean;
     for (const std::size_t k : classes) {
         const double own = moments_of(judge, [k](const auto& m) { return m[k].whole; }).mean;
-        const double scale = std::max(own, 0.05 * picture);
-        expect_agreement(c.name + ", " + what, compare_pass(judge, tested, k, 0.04, 0, scale));
+        const double scale = std::max(own, 0.1 * picture);
+        expect_agreement(c.name + ", " + what, compare_pass(judge, tested, k, 0.06, 0, scale));
     }
 }
 
@@ -48,7 +48,7 @@ void expect_photon_mapping(const CausticCase& c) {
     const Pictures& judge = judge_of(c);
     const Pictures photons = photon_pictures(c, with_photons(c, IntegratorKind::photon_mapping), 3000);
     expect_agreement(c.name + ", photons", compare_pass(judge, photons, 0, c.bound, c.block_bound));
-    if (!c.rough) expect_classes(c, judge, photons, {1}, "photons");
+    if (!c.rough) expect_classes(c, judge, photons, k_all_classes, "photons");
 }
 
 TEST(Equivalence, GlassAndChromeHybrid) { expect_hybrid(glass_and_chrome()); }
@@ -83,6 +83,7 @@ void expect_variant(const CausticCase& c, const scene::SceneDesc& scene, const s
 TEST(Variants, GuideAndBlendedHits) {
     for (const bool guided : {false, true}) {
         for (const bool blended : {false, true}) {
+            if (guided && blended) continue;  // all tests above
             const CausticCase c = glass_and_chrome();
             scene::SceneDesc scene = with_photons(c, IntegratorKind::hybrid);
             scene.settings.guided_emission = guided;
@@ -148,6 +149,7 @@ void expect_same_limits(const std::string& name, scene::SceneDesc scene) {
 
 TEST(BounceLimits, InAll) {
     for (const int limit : {2, 3, 4}) {
+        if (limit != 3 && !heavy()) continue;
         scene::SceneDesc scene = glass_and_chrome().scene;
         scene.settings.max_bounces = limit;
         expect_same_limits("limit " + std::to_string(limit), scene);
@@ -158,6 +160,7 @@ TEST(BounceLimits, ByKind) {
     scene::SceneDesc diffuse = glass_and_chrome().scene;
     diffuse.settings.max_diffuse_bounces = 1;
     expect_same_limits("one diffuse bounce", diffuse);
+    if (!heavy()) return;
     scene::SceneDesc transmission = glass_and_chrome().scene;
     transmission.settings.max_transmission_bounces = 1;
     expect_same_limits("one transmission", transmission);

@@ -53,7 +53,8 @@ CausticCase point_over_metal() {
 TEST(Threshold, PointLampOverMetal) {
     // 0.15 is the metal's own roughness: "at or under".
     expect_thresholds(point_over_metal(), IntegratorKind::hybrid, {0, 0.1f, 0.15f, 0.3f});
-    expect_thresholds(point_over_metal(), IntegratorKind::photon_mapping, {0.1f, 0.3f});
+    // Below it the metal is class D, and photons on something so shiny are found too rarely to tell.
+    expect_thresholds(point_over_metal(), IntegratorKind::photon_mapping, {0.3f});
 }
 
 TEST(Threshold, AtTheRoughnessItselfIsSpecular) {
@@ -70,11 +71,12 @@ TEST(Threshold, AtTheRoughnessItselfIsSpecular) {
 TEST(Threshold, HighlightsStay) {
     // While every vertex before is S, lamps are connected to rough S lobes: otherwise a point has no highlight.
     CausticCase c = point_over_metal();
+    c.scene.settings.max_bounces = 0;
     scene::SceneDesc scene = with_photons(c, IntegratorKind::hybrid);
     scene.settings.caustic_roughness = 0.3f;
     const Pictures judge = pictures(path_traced(c), 1000), tested = pictures(scene, 2000);
     const double highlight = moments_of(tested, [](const auto& m) { return m[1].whole; }).mean;
-    // Path tracing has the highlight and the floor's direct light in D2.
+    // Path tracing has the highlight and the floor's direct light in D2, all at the first vertex.
     const double direct = moments_of(judge, [](const auto& m) { return m[2].whole; }).mean;
     const double floor = moments_of(tested, [](const auto& m) { return m[2].whole; }).mean;
     EXPECT_GT(highlight, 0.02 * direct);
