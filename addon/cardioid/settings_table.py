@@ -105,7 +105,7 @@ k_settings = (
             1.0, "blur_glossy", "filter_glossy", options={"min": 0.0, "max": 10.0}),
     Setting("indirect_caustics", "enum", "Indirect Caustics",
             "Caustics of light that a rough surface has scattered first: a bright wall seen as a glint under a glass",
-            "PHOTONS", None, "indirect_caustics", k_indirect_caustics),
+            "PATH_TRACING", None, "indirect_caustics", k_indirect_caustics),
     Setting("photons", "int", "Photons",
             "Photons sent out for each sample of the picture. More: smoother caustics, longer samples, more memory. "
             "0: chosen by the size of the picture",

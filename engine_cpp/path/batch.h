@@ -153,7 +153,6 @@ struct BatchRequest {
 struct alignas(64) GatherLists {
     static constexpr int capacity = 256;
     std::int32_t photon[capacity][16];
-    float kernel[capacity][16];  ///< weight by distance
     int n[16];
 };
 

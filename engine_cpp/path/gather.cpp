@@ -114,7 +114,7 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
         lanes &= abs(dot(q.normal, ng)) > Float(k_least_cosine);
         if (none(lanes)) continue;
         const GatherEval e = eval_d_lobes(scene, chunk, i, wo, ng, q, lanes);
-        Float weight = load(lists.kernel[at]) / max(abs(dot(q.wp, q.normal)), 1e-4f);
+        Float weight = 1.0f / max(abs(dot(q.wp, q.normal)), 1e-4f);
         if (request.partition.blend_hits) {
             // As RayState::merge of the camera path that goes the same way; hits of lamps take the other share.
             const Float projected = max(abs(dot(ng, q.wp)), 1e-6f);
@@ -146,13 +146,10 @@ void Tracer::gather_photons(const path::VertexChunk& chunk, int i) {
         const float radius = chunk.radius[i + k];
         photon::for_each_photon(pass.map, center, radius, [&](std::int32_t index) {
             const float* q = pass.map.photons[index].position;
-            const float d[3] = {q[0] - center[0], q[1] - center[1], q[2] - center[2]};
-            const float off = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
+            const float off = (q[0] - center[0]) * n[0] + (q[1] - center[1]) * n[1] + (q[2] - center[2]) * n[2];
             if (off > k_flatness * radius || off < -k_flatness * radius) return;
             if (lists.n[k] == path::GatherLists::capacity) add_photons(chunk, i, sum);
-            lists.photon[lists.n[k]][k] = index;
-            lists.kernel[lists.n[k]][k] = 1.0f;
-            ++lists.n[k];
+            lists.photon[lists.n[k]++][k] = index;
             ++found[k];
             if (pass.gathered) pass.gathered[index].fetch_add(1, std::memory_order_relaxed);
         });

@@ -63,10 +63,14 @@ struct PhotonStage::Impl {
     photon::PhotonMap map;
     path::PhotonPass pass;
     std::int64_t per_sample = 0;
+    int most_samples = 8;  // of a pass
     std::uint32_t pass_seed = 0;
     std::unique_ptr<std::atomic<std::uint32_t>[]> gathered;
     std::vector<photon::Lesson> lessons;
     std::vector<photon::PixelStatistics> pixels;  // per-pixel schedule
+    std::unique_ptr<BalanceMeter> meter;          // null: the number of photons is given
+    int meter_samples[2] = {};
+    path::Counters work_before;
     PhotonStats stats;
     mutable std::mutex mutex;  // of stats
     bool active = false;
@@ -80,6 +84,9 @@ struct PhotonStage::Impl {
 
     photon::Emission emission(std::uint32_t number) const;
     void learn_densities();
+    void learn_guide();
+    int count_samples() const;
+    void balance(const Pass& pass, const path::Counters& work);
     std::vector<photon::Photon> trace(std::int64_t emitted, const std::function<PhotonWorker()>& worker,
                                       const std::atomic<bool>& stop);
 };
@@ -145,6 +152,9 @@ PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region&
     s.learn_densities();
     if (settings.radius_schedule == scene::RadiusSchedule::per_pixel)
         s.pixels.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
+    else if (settings.photons == 0)
+        s.meter = std::make_unique<BalanceMeter>(region);
+    s.most_samples = s.count_samples();
     s.stats.per_sample = s.per_sample;
 }
 
@@ -154,11 +164,13 @@ const path::Partition& PhotonStage::partition() const { return impl_->partition;
 bool PhotonStage::active() const { return impl_->active; }
 bool PhotonStage::has_state() const { return !impl_->pixels.empty(); }
 
-int PhotonStage::most_samples() const {
-    if (!impl_->active) return 8;
+int PhotonStage::most_samples() const { return impl_->most_samples; }
+
+int PhotonStage::Impl::count_samples() const {
+    if (!active) return 8;
     // One hit point a pass in the per-pixel schedule (thesis: two camera paths a pixel and pass).
-    const int bound = impl_->pixels.empty() ? 8 : 2;
-    const double fit = k_most_photons / static_cast<double>(impl_->per_sample);
+    const int bound = pixels.empty() ? 8 : 2;
+    const double fit = k_most_photons / static_cast<double>(per_sample);
     int most = 1;
     while (2 * most <= bound && 2 * most <= fit) most *= 2;
     return most;
@@ -214,30 +226,57 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
 
 const path::PhotonPass* PhotonStage::gather() const { return impl_->active ? &impl_->pass : nullptr; }
 
-void PhotonStage::learn(const Pass& pass) {
+BalanceMeter* PhotonStage::meter(const Pass& pass) {
+    const bool last_two = pass.number == k_training_passes - 2 || pass.number == k_training_passes - 1;
+    return last_two ? impl_->meter.get() : nullptr;
+}
+
+void PhotonStage::Impl::balance(const Pass& p, const path::Counters& work) {
+    if (!meter) return;
+    const int half = p.number - (k_training_passes - 2);
+    if (half < 0) work_before = work;
+    if (half < 0) return;
+    meter_samples[half] = p.samples;
+    if (half == 0) return;
+    // A photon that is gathered costs about an eighth of a ray.
+    const double photon_cost = static_cast<double>(work.photon_rays - work_before.photon_rays) +
+                               static_cast<double>(work.gathered - work_before.gathered) / 8;
+    const double camera_cost = static_cast<double>(work.rays - work_before.rays) +
+                               static_cast<double>(work.shadow_rays - work_before.shadow_rays);
+    const double wanted = static_cast<double>(per_sample) * meter->factor(meter_samples, camera_cost, photon_cost);
+    per_sample = static_cast<std::int64_t>(std::clamp(wanted, 1.0, k_most_photons / most_samples));
+    meter.reset();
+}
+
+void PhotonStage::learn(const Pass& pass, const path::Counters& work) {
     Impl& s = *impl_;
-    if (!s.active || !s.pass.gathered) return;
+    if (!s.active || pass.number >= k_training_passes) return;
     const auto started = Clock::now();
-    const photon::PhotonMapView& map = s.map.view();
-    for (std::int64_t i = 0; i < map.count; ++i) {
-        const std::uint32_t times = s.gathered[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
+    if (s.pass.gathered) s.learn_guide();
+    s.balance(pass, work);
+    if (pass.number + 1 == k_training_passes) s.lessons = {};
+    const std::lock_guard lock(s.mutex);
+    ++s.stats.training_passes;
+    s.stats.per_sample = s.per_sample;
+    s.stats.learn_seconds += seconds_since(started);
+}
+
+void PhotonStage::Impl::learn_guide() {
+    for (std::int64_t i = 0; i < pass.map.count; ++i) {
+        const std::uint32_t times = gathered[static_cast<std::size_t>(i)].load(std::memory_order_relaxed);
         if (times == 0) continue;
-        const photon::Photon& q = map.photons[i];
-        const photon::Emission e = s.emission(q.source);
+        const photon::Photon& q = pass.map.photons[i];
+        const photon::Emission e = emission(q.source);
         photon::Lesson lesson;
         lesson.emitter = e.emitter;
         std::copy(std::begin(e.u), std::end(e.u), lesson.u);
         lesson.value = static_cast<float>(times) * std::fabs(luminance(q.flux)) * e.density;
         lesson.density = e.density;
-        s.lessons.push_back(lesson);
+        lessons.push_back(lesson);
     }
-    s.guide.learn(s.lessons);
-    s.learn_densities();
-    s.gathered.reset();
-    if (pass.number + 1 >= k_training_passes) s.lessons = {};
-    const std::lock_guard lock(s.mutex);
-    ++s.stats.training_passes;
-    s.stats.learn_seconds += seconds_since(started);
+    guide.learn(lessons);
+    learn_densities();
+    gathered.reset();
 }
 
 void PhotonStage::resolve(const film::Region& part, float exposure, film::Frame& frame) const {

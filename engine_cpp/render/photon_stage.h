@@ -5,6 +5,7 @@
 
 #include "film/film.h"
 #include "path/batch.h"
+#include "render/balance.h"
 #include "render/passes.h"
 #include "trace/traceable_scene.h"
 
@@ -45,8 +46,10 @@ public:
     bool trace(const Pass& pass, const std::function<PhotonWorker()>& worker, const std::atomic<bool>& stop);
     /// What camera paths of the pass gather from; null when no photons are traced.
     const path::PhotonPass* gather() const;
-    /// After the camera paths of a training pass: learns from what they gathered.
-    void learn(const Pass& pass);
+    /// Where camera paths of a pass tell their results for the balance of the two halves; null: not of this pass.
+    BalanceMeter* meter(const Pass& pass);
+    /// After the camera paths of a training pass: learns from what they gathered. `work`: counted so far in the whole render.
+    void learn(const Pass& pass, const path::Counters& work);
     /// Per-pixel schedule: adds the photons' part to the frame's pixels inside `part` (frame coordinates).
     void resolve(const film::Region& part, float exposure, film::Frame& frame) const;
     /// Whether passes depend on the ones before (the per-pixel schedule).

@@ -178,9 +178,9 @@ struct Settings {
     bool reflective_caustics = true, refractive_caustics = true;
     float filter_glossy = 0;
     float caustic_roughness = 0.1f;  ///< lobes at or under it are class S; path tracing alone takes 0
-    IndirectCaustics indirect_caustics = IndirectCaustics::photons;
+    IndirectCaustics indirect_caustics = IndirectCaustics::path_tracing;
     std::int64_t photons = 0;  ///< emitted for each sample of the whole frame; 0: by the number of pixels and balance
-    float photon_radius = 2;   ///< first radius of a gather, in footprints of a pixel
+    float photon_radius = 1;   ///< first radius of a gather, in footprints of a pixel
     float radius_shrink = 0.6666667f;  ///< alpha in (0, 1]: the smaller, the faster radii shrink; 1: never
     RadiusSchedule radius_schedule = RadiusSchedule::memoryless;
     bool guided_emission = true;       ///< photons learn in the first passes where they are needed

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inside of a session, shared by its two files.
+#pragma once
+
+#include "film/film.h"
+#include "film/pixel_filter.h"
+#include "path/batch.h"
+#include "render/photon_stage.h"
+#include "render/session.h"
+#include "trace/traceable_scene.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace cardioid::render {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
+
+/// User + system seconds of this process.
+double cpu_seconds();
+
+/// Scratch and result of one thread.
+struct Worker {
+    std::unique_ptr<path::Scratch> scratch = std::make_unique<path::Scratch>();
+    std::unique_ptr<path::BatchResult> result = std::make_unique<path::BatchResult>();
+    std::vector<std::int32_t> bins;
+    std::vector<photon::Photon> photons;  // of one batch
+    std::uint64_t dropped = 0;
+};
+
+struct Session::Impl {
+    std::shared_ptr<const scene::SceneDesc> desc;
+    path::TraceBatch trace_batch;
+    path::TracePhotons trace_photons;
+    int width;
+    film::Film film;
+    film::FilterTable filter_table;
+    std::unique_ptr<trace::TraceableScene> scene;
+    std::unique_ptr<PhotonStage> photons;
+    tbb::enumerable_thread_specific<Worker> workers;
+
+    std::thread controller;
+    std::atomic<bool> cancelled{false};  // the host's wish
+    std::atomic<bool> stop{false};       // cancelled, or out of time: batches end early
+    std::atomic<std::uint64_t> revision{0};
+    std::atomic<std::int64_t> pixel_samples{0};
+
+    mutable std::mutex picture_mutex;
+    film::Frame picture;
+
+    mutable std::mutex state_mutex;
+    std::condition_variable ended;
+    Phase phase = Phase::waiting;
+    std::string message;
+    bool finished = false;
+    Clock::time_point started, render_started;
+    double build_seconds = 0, render_seconds = 0, camera_seconds = 0, elapsed_seconds = 0, first_tile_seconds = 0,
+           cpu_at_start = 0, cpu_total = 0;
+    std::vector<std::string> scene_warnings;
+    trace::BuildStats build_stats;
+    path::Counters counters;
+    std::uint64_t dropped = 0;
+
+    Impl(std::shared_ptr<const scene::SceneDesc> d, int lanes)
+        : desc(std::move(d)),
+          trace_batch(path::select_trace_batch(lanes)),
+          trace_photons(path::select_trace_photons(lanes)),
+          width(lanes == 0 ? path::best_width() : lanes),
+          film(desc->settings),
+          filter_table(film::make_filter_table(desc->settings.pixel_filter, desc->settings.filter_width)) {}
+
+    void run();
+    void build();
+    void render();
+    void render_pass(const Pass& pass);
+    void render_tile(const film::Region& tile, const Pass& pass);
+    /// What all threads have counted.
+    path::Counters work() const;
+    /// This thread's memory, ready for a batch.
+    Worker& worker();
+    void measure(const path::BatchResult& r, int half, BalanceMeter& meter) const;
+    void set_phase(Phase p, const std::string& text);
+    void finish(Phase p, const std::string& text);
+    bool out_of_time() const;
+    int threads() const;
+};
+
+}  // namespace cardioid::render
