@@ -19,6 +19,7 @@ Pick::Pick(const std::vector<double>& weights) {
     }
     for (double& c : cumulative_) c /= sum;
     const double n = static_cast<double>(weights.size());
+    first_.reserve(weights.size());
     std::uint32_t index = 0;
     for (std::size_t bucket = 0; bucket < weights.size(); ++bucket) {
         while (cumulative_[index] <= static_cast<double>(bucket) / n) ++index;

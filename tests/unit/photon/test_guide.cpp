@@ -311,7 +311,7 @@ TEST(PhotonGuide, AMillionEmitters) {
     };
     for (int i = 0; i < 5000; ++i) {
         lesson(static_cast<std::int32_t>(1000 + rng() % 20));
-        lesson(777);
+        lessons.push_back({777, {0.5f, 0.5f, 0.5f, 0.5f}, 1, 1e-6f});
     }
     guide.learn(lessons);
     EXPECT_LT(guide.memory_bytes(), 40 * n);
