@@ -20,12 +20,12 @@ struct CausticCase {
     int path_samples = heavy() ? 1024 : 384;  ///< of path tracing
     int photon_samples = heavy() ? 192 : 48;  ///< camera paths a pixel of the other two
     std::int64_t photons = 4000;              ///< emitted for each of them
-    float radius = 0.5f;                      ///< first of the two radii, in footprints
+    float radius = 0.4f;                      ///< first of the two radii, in footprints
     float finer =
         0.70710678f;     ///< second radius over the first: 1/√2 for a quadratic bias, 1/2 for the linear one of edges
     bool rough = false;  ///< lobes of class S that are no deltas: path tracing classes them otherwise
     double bound = 0.02;        ///< of whole pictures, relative
-    double block_bound = 0.12;  ///< of each of the 16 blocks, relative to the larger of its own and the picture's mean
+    double block_bound = 0.15;  ///< of each of the 16 blocks, relative to the larger of its own and the picture's mean
 };
 
 inline scene::GraphDesc tinted_glass(Float3 c, float ior) {
@@ -69,7 +69,6 @@ inline CausticCase glass_and_chrome() {
     m.add(sphere({0.75f, 0.3f, 0.7f}, 0.6f, 4, true), glossy(0.9f, 0));
     m.perspective({0, -2.4f, 2.2f}, {0, 0.2f, 0.3f}, 0.4f);
     CausticCase c = caustic_case("glass and chrome spheres", m);
-    c.radius = 0.4f;
     c.finer = 0.5f;  // the balls show the room's corners
     return c;
 }
@@ -95,7 +94,9 @@ inline CausticCase bouncing_caustic() {
     m.area_lamp({0, 0, 2.7f}, {0, 0, 0}, 1.6f, 1.6f, 6);
     m.perspective({2.8f, -3.2f, 0.8f}, {2.4f, 0.4f, 3.2f}, 0.3f);
     CausticCase c = caustic_case("caustic that bounces on", m);
-    c.path_samples *= 2;
+    c.path_samples *= 4;
+    c.photons *= 2;
+    c.block_bound = 0.2;
     return c;
 }
 
@@ -142,11 +143,14 @@ inline CausticCase coarse_receiver() {
     m.add(floor_quad(1.3f, -6), glass(1, 1.5f));
     m.add(floor_quad(1.4f, 6), glass(1, 1.5f));
     m.area_lamp({-1, -1, 2.6f}, {0, 0, 0}, 2, 2, 5);
-    m.perspective({0, -3, 1}, {0, 0, 0.1f}, 0.18f);
+    m.perspective({0, -3, 1}, {0, 0, 0.1f}, 0.3f);
+    m.scene.settings.transparent_film = true;
     CausticCase c = caustic_case("coarse chalk ball", m);
     c.finer = 0.5f;
-    c.photons *= 3;
-    c.block_bound = 0.15;
+    c.photons *= 4;
+    // Light that grazes a face and shines on its pretended roundness: rare bright photons.
+    c.bound = 0.025;
+    c.block_bound = 0.3;
     return c;
 }
 

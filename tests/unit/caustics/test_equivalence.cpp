@@ -47,7 +47,8 @@ void expect_hybrid(const CausticCase& c) {
 void expect_photon_mapping(const CausticCase& c) {
     const Pictures& judge = judge_of(c);
     const Pictures photons = photon_pictures(c, with_photons(c, IntegratorKind::photon_mapping), 3000);
-    expect_agreement(c.name + ", photons", compare_pass(judge, photons, 0, c.bound, c.block_bound));
+    // Direct light is noisier by photons than by connections.
+    expect_agreement(c.name + ", photons", compare_pass(judge, photons, 0, c.bound, 1.5 * c.block_bound));
     if (!c.rough) expect_classes(c, judge, photons, k_all_classes, "photons");
 }
 
@@ -157,13 +158,14 @@ TEST(BounceLimits, InAll) {
 }
 
 TEST(BounceLimits, ByKind) {
+    // Two on the lamp's side and two on the camera's: together one too many.
+    scene::SceneDesc transmission = glass_and_chrome().scene;
+    transmission.settings.max_transmission_bounces = 3;
+    expect_same_limits("three transmissions", transmission);
     scene::SceneDesc diffuse = glass_and_chrome().scene;
     diffuse.settings.max_diffuse_bounces = 1;
     expect_same_limits("one diffuse bounce", diffuse);
     if (!heavy()) return;
-    scene::SceneDesc transmission = glass_and_chrome().scene;
-    transmission.settings.max_transmission_bounces = 1;
-    expect_same_limits("one transmission", transmission);
     scene::SceneDesc glossy = glass_and_chrome().scene;
     glossy.settings.max_glossy_bounces = 0;
     expect_same_limits("no glossy bounce", glossy);
