@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One chunk: rays that hit the same material. Runs its program, keeps the vertices as a record, samples where paths go on.
 #include "path/bsdf_choice.h"
+#include "trace/curvature.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -154,6 +155,31 @@ void Tracer::adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_
     }
 }
 
+/// Largest bend of a pixel's cone at one surface, in pixels.
+constexpr float k_most_turn = 2.0f;
+
+Float Tracer::spread_after(const path::VertexChunk& chunk, int i, const Choice& c, Int flags, Float width,
+                           Float spread) const {
+    const Float blurred = spread + c.blur;
+    if (!request.photons) return blurred;
+    const Mask bends = c.valid & c.specular & (state_of(flags) == Int(static_cast<int>(path::State::specular)));
+    if (none(bends)) return blurred;
+    const nodes::ShadingChunk& s = scratch.shading;
+    const Mask backfacing = load(s.backfacing + i) > Float(0.5f);
+    // A fillet shows all its surroundings in one pixel; a gather that wide would be slow and blur more than it cleans.
+    const float most = k_most_turn * scene.camera.pixel_x;
+    const Float curvature = mean_curvature(scene, load(s.instance + i), load(s.triangle + i), backfacing, bends);
+    const Float turn = clamp(width * curvature, -most, most);
+    Float inv_eta = 1.0f;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        if (bsdf::sends_light_through(chunk.lobe[k].kind))
+            inv_eta = select(c.lobe == Int(k), 1.0f / load(chunk.lobe[k].eta + i), inv_eta);
+    }
+    // A mirror turns the ray by twice what the normal turns; Snell's law for small angles.
+    const Float bent = select(c.transmitted, spread * inv_eta - turn * (1.0f - inv_eta), spread + 2.0f * turn);
+    return select(bends, bent + c.blur, blurred);
+}
+
 void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
     const scene::Settings& settings = scene.settings;
     const nodes::ShadingChunk& s = scratch.shading;
@@ -208,7 +234,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         c.valid &= scatters & (c.pdf > Float(0.0f));
         const Float width = gather(rays.width, ray), spread = gather(rays.spread, ray);
         Float merge = gather(rays.merge, ray);
-        if (request.photons) merge = mark_gather(chunk, i, c, scatters, width + spread * t, merge);
+        if (request.photons) merge = mark_gather(chunk, i, c, scatters, footprint(width, spread, t), merge);
 
         Spectrum carried = throughput * c.f * (1.0f / max(c.pdf, 1e-37f));
         NextPath path_next = advance(settings, flags, depth, c);
@@ -235,7 +261,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         r.pdf = select(passes, gather(rays.pdf, ray), select(unconnected, Float(-1.0f), c.pdf));
         r.from_normal = select(passes, load3(rays.from_normal, ray), from);
         r.width = select(passes, width, width + spread * t);
-        r.spread = select(passes, spread, spread + c.blur);
+        r.spread = select(passes, spread, spread_after(chunk, i, c, flags, width + spread * t, spread));
         r.min_pdf = select(passes | c.delta, min_pdf, min(min_pdf, c.pdf));
         r.merge = merge;
         r.path = path;

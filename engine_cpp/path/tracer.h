@@ -59,6 +59,9 @@ struct Tracer : Walk {
     void shade(int material, const std::int32_t* rays, int n);
     void scatter(path::VertexChunk& chunk, const std::int32_t* rays);
     void apply_holdout(Int path, Spectrum throughput, Float holdout, Mask lanes);
+    /// Growth of the pixel's cone after the vertex; with photons, curved mirrors and glass bend it too.
+    Float spread_after(const path::VertexChunk& chunk, int i, const Choice& c, Int flags, Float width,
+                       Float spread) const;
     /// What Cycles' settings do to lobes: caustics switched off, Filter Glossy.
     void adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf);
     path::VertexChunk* new_record(int material);
@@ -148,6 +151,13 @@ inline Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
     const Int reflected(bsdf::is_diffuse_kind(kind) ? scene::visible_diffuse : scene::visible_glossy);
     if (!bsdf::sends_light_through(kind)) return reflected;
     return select(dot(wi, ng) < Float(0.0f), Int(scene::visible_transmission), reflected);
+}
+
+/// Width of a pixel's cone after t. Curved mirrors and glass may focus it (negative spread): near the focus it keeps a share of
+/// what it had.
+inline Float footprint(Float width, Float spread, Float t) {
+    const Float focused = abs(width + spread * t);
+    return select(spread < Float(0.0f), max(focused, 0.25f * abs(width)), focused);
 }
 
 /// Lanes whose state, as a class, is in the set.

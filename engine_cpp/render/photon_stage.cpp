@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Photons of a pass are kept to about this many by making passes small.
-constexpr double k_most_photons = 4e6;
+constexpr double k_most_photons = 2e6;
 /// Photons for each camera path.
 constexpr double k_photons_per_path = 0.5;
 
@@ -41,12 +41,15 @@ void in_parallel(void*, int n, void (*body)(void*, int), void* argument) {
 float luminance(const float (&c)[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
 /// Photons traced together end up next to each other, whatever thread traced them.
-std::vector<photon::Photon> concatenate(const std::vector<std::vector<photon::Photon>>& batches) {
+std::vector<photon::Photon> concatenate(std::vector<std::vector<photon::Photon>> batches) {
     std::size_t total = 0;
     for (const auto& b : batches) total += b.size();
     std::vector<photon::Photon> all;
     all.reserve(total);
-    for (const auto& b : batches) all.insert(all.end(), b.begin(), b.end());
+    for (auto& b : batches) {
+        all.insert(all.end(), b.begin(), b.end());
+        b = {};
+    }
     return all;
 }
 
@@ -69,8 +72,6 @@ struct PhotonStage::Impl {
     std::vector<photon::Lesson> lessons;
     std::vector<photon::PixelStatistics> pixels;  // per-pixel schedule
     std::unique_ptr<BalanceMeter> meter;          // null: the number of photons is given
-    int meter_samples[2] = {};
-    path::Counters work_before;
     PhotonStats stats;
     mutable std::mutex mutex;  // of stats
     bool active = false;
@@ -129,7 +130,7 @@ std::vector<photon::Photon> PhotonStage::Impl::trace(std::int64_t emitted, const
             batches[b].assign(w.stored->begin(), w.stored->begin() + stored);
         },
         tbb::simple_partitioner{});
-    return concatenate(batches);
+    return concatenate(std::move(batches));
 }
 
 PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region& region, path::TracePhotons kernel)
@@ -187,6 +188,8 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
     const std::int64_t emitted = s.per_sample * pass.size;
     const auto started = Clock::now();
     s.pass_seed = settings.seed * 0x9e3779b9u + static_cast<std::uint32_t>(pass.number) * 0x85ebca6bu + 0x51ed270bu;
+    // Two maps never stand beside each other.
+    s.map = {};
     std::vector<photon::Photon> photons = s.trace(emitted, worker, stop);
     if (stop) return false;
     const double trace_seconds = seconds_since(started);
@@ -227,23 +230,15 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
 const path::PhotonPass* PhotonStage::gather() const { return impl_->active ? &impl_->pass : nullptr; }
 
 BalanceMeter* PhotonStage::meter(const Pass& pass) {
-    const bool last_two = pass.number == k_training_passes - 2 || pass.number == k_training_passes - 1;
-    return last_two ? impl_->meter.get() : nullptr;
+    return pass.number < k_training_passes ? impl_->meter.get() : nullptr;
 }
 
 void PhotonStage::Impl::balance(const Pass& p, const path::Counters& work) {
-    if (!meter) return;
-    const int half = p.number - (k_training_passes - 2);
-    if (half < 0) work_before = work;
-    if (half < 0) return;
-    meter_samples[half] = p.samples;
-    if (half == 0) return;
+    if (!meter || p.number + 1 != k_training_passes) return;
     // A photon that is gathered costs about an eighth of a ray.
-    const double photon_cost = static_cast<double>(work.photon_rays - work_before.photon_rays) +
-                               static_cast<double>(work.gathered - work_before.gathered) / 8;
-    const double camera_cost = static_cast<double>(work.rays - work_before.rays) +
-                               static_cast<double>(work.shadow_rays - work_before.shadow_rays);
-    const double wanted = static_cast<double>(per_sample) * meter->factor(meter_samples, camera_cost, photon_cost);
+    const double photon_cost = static_cast<double>(work.photon_rays) + static_cast<double>(work.gathered) / 8;
+    const double camera_cost = static_cast<double>(work.rays) + static_cast<double>(work.shadow_rays);
+    const double wanted = static_cast<double>(per_sample) * meter->factor(camera_cost, photon_cost);
     per_sample = static_cast<std::int64_t>(std::clamp(wanted, 1.0, k_most_photons / most_samples));
     meter.reset();
 }

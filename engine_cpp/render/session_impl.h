@@ -85,7 +85,7 @@ struct Session::Impl {
     path::Counters work() const;
     /// This thread's memory, ready for a batch.
     Worker& worker();
-    void measure(const path::BatchResult& r, int half, BalanceMeter& meter) const;
+    void measure(const path::BatchResult& r, int pass, BalanceMeter& meter) const;
     void set_phase(Phase p, const std::string& text);
     void finish(Phase p, const std::string& text);
     bool out_of_time() const;

@@ -135,7 +135,7 @@ path::Counters Session::Impl::work() const {
     return sum;
 }
 
-void Session::Impl::measure(const path::BatchResult& r, int half, BalanceMeter& meter) const {
+void Session::Impl::measure(const path::BatchResult& r, int pass, BalanceMeter& meter) const {
     for (int i = 0; i < r.n; ++i) {
         float sum[2] = {};
         for (int c = 0; c < path::k_classes; ++c) {
@@ -143,7 +143,7 @@ void Session::Impl::measure(const path::BatchResult& r, int half, BalanceMeter& 
             sum[by_photons] +=
                 0.2126f * r.radiance[c][0][i] + 0.7152f * r.radiance[c][1][i] + 0.0722f * r.radiance[c][2][i];
         }
-        meter.add(half, r.x[i], r.y[i], sum[0], sum[1]);
+        meter.add(pass, r.x[i], r.y[i], sum[0], sum[1]);
     }
 }
 
@@ -174,7 +174,7 @@ void Session::Impl::render_tile(const film::Region& tile, const Pass& pass) {
     trace_batch(request, *worker.scratch, r);
     // A batch that was cut short lacks light: it is not counted.
     if (stop) return;
-    if (BalanceMeter* meter = photons->meter(pass)) measure(r, pass.number - (k_training_passes - 2), *meter);
+    if (BalanceMeter* meter = photons->meter(pass)) measure(r, pass.number, *meter);
     const int first = desc->settings.first_sample;
     if (pass.first + pass.samples <= first) return;
     for (int i = 0; i < r.n; ++i) {

@@ -15,6 +15,8 @@ constexpr std::int64_t k_film_bytes_per_pixel = (21 + 2 * 23) * 4;
 // Embree's tree with its triangles copied into the leaves, 8 wide.
 constexpr std::int64_t k_tree_bytes_per_triangle = 120;
 constexpr std::int64_t k_bytes_per_instance = 700;
+// An emitted photon is stored about once where emission is guided: 48 bytes as it is traced, again in the index, and its cells.
+constexpr std::int64_t k_bytes_per_photon = 130;
 constexpr std::int64_t k_huge = std::numeric_limits<std::int64_t>::max() / 8;
 
 std::int64_t times(std::int64_t a, std::int64_t b) {
@@ -43,7 +45,7 @@ std::string readable(std::int64_t amount) {
 
 }  // namespace
 
-std::int64_t MemoryEstimate::total() const { return geometry + film + textures; }
+std::int64_t MemoryEstimate::total() const { return geometry + film + photons + textures; }
 
 MemoryEstimate memory_estimate(const SceneDesc& scene) {
     MemoryEstimate estimate;
@@ -64,6 +66,7 @@ MemoryEstimate memory_estimate(const SceneDesc& scene) {
     const std::int64_t width = std::max(cropped ? s.crop[2] : s.width, 0),
                        height = std::max(cropped ? s.crop[3] : s.height, 0);
     estimate.film = times(width * height, k_film_bytes_per_pixel);
+    if (s.integrator != IntegratorKind::path_tracing) estimate.photons = times(s.photons, k_bytes_per_photon);
     return estimate;
 }
 
@@ -81,13 +84,17 @@ std::string memory_problem(const SceneDesc& scene) {
     const MemoryEstimate estimate = memory_estimate(scene);
     const Settings& s = scene.settings;
     // The tile cache gives way to what is needed, so it is not held against the scene.
-    const std::int64_t need = estimate.geometry + estimate.film;
+    const std::int64_t need = estimate.geometry + estimate.film + estimate.photons;
     const bool limited = s.memory_limit > 0;
     const std::int64_t have = limited ? s.memory_limit : machine_memory();
     if (need <= have) return {};
+    const std::string photons =
+        estimate.photons > 0 ? ", " + readable(estimate.photons) + " for " + std::to_string(s.photons) + " photons"
+                             : "";
     return "the scene needs about " + readable(need) + " (" + readable(estimate.film) + " for " +
            std::to_string(s.width) + " × " + std::to_string(s.height) + " pixels, " + readable(estimate.geometry) +
-           " for geometry), but " + (limited ? "the memory limit is " : "this machine has ") + readable(have);
+           " for geometry" + photons + "), but " + (limited ? "the memory limit is " : "this machine has ") +
+           readable(have);
 }
 
 }  // namespace cardioid::scene

@@ -13,6 +13,7 @@ namespace cardioid::scene {
 struct MemoryEstimate {
     std::int64_t geometry = 0;  ///< the description's arrays, the engine's tables and Embree's trees
     std::int64_t film = 0;      ///< pixel buffers and one published picture
+    std::int64_t photons = 0;   ///< of one pass; 0 where Settings::photons leaves the number to the engine
     std::int64_t textures = 0;  ///< the bound of the tile cache (files), and pixels held in memory
     std::int64_t total() const;
 };

@@ -47,6 +47,14 @@ void repair_settings(Settings& s, ProblemList& problems) {
     repair(problems, who, "clamp_indirect", s.clamp_indirect, 0, k_large, 0);
     repair(problems, who, "filter_glossy", s.filter_glossy, 0, 1000, 0);
     repair(problems, who, "caustic_roughness", s.caustic_roughness, 0, 1, 0);
+    repair(problems, who, "photon_radius", s.photon_radius, 0.01f, 1000, 1);
+    repair(problems, who, "radius_shrink", s.radius_shrink, 0.01f, 1, 0.6666667f);
+    if (s.photons < 0) {
+        problems.warn(who, "has a negative number of photons; the engine chooses");
+        s.photons = 0;
+    }
+    // Photons are numbered in 32 bits; what is refused below for its memory is far less.
+    s.photons = std::min(s.photons, std::int64_t{1} << 31);
     repair(problems, who, "filter_width", s.filter_width, 0.01f, 64, 1.5f);
     repair(problems, who, "exposure", s.exposure, 0, k_large, 1);
     repair(problems, who, "transparent_roughness", s.transparent_roughness, 0, 1, 0.1f);

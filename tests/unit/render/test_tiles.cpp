@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "path/batch.h"
+#include "render/passes.h"
 #include "render/tiles.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 namespace cardioid::render {
 namespace {
 
-TEST(PassSizes, AddUpAndStayInABatch) {
-    for (int samples = 0; samples <= 300; ++samples) {
-        const auto sizes = pass_sizes(samples);
-        EXPECT_EQ(std::accumulate(sizes.begin(), sizes.end(), 0), samples);
-        for (const int size : sizes) {
-            EXPECT_GE(size, 1);
-            EXPECT_LE(size, 8);
+TEST(Passes, CoverEverySampleOnceInTheSameTable) {
+    for (const int most : {1, 2, 4, 8}) {
+        const auto whole = passes(0, 300, most);
+        for (int first = 0; first < 40; ++first) {
+            for (int samples = 0; samples <= 100; ++samples) {
+                int next = first;
+                for (const Pass& p : passes(first, samples, most)) {
+                    EXPECT_EQ(p.first, next);
+                    next += p.samples;
+                    EXPECT_GE(p.samples, 1);
+                    EXPECT_LE(p.size, most);
+                    const Pass& same = whole[static_cast<std::size_t>(p.number)];
+                    ASSERT_TRUE(same.number == p.number && same.begin == p.begin && same.size == p.size);
+                    EXPECT_TRUE(p.first >= p.begin && p.first + p.samples <= p.begin + p.size);
+                }
+                EXPECT_EQ(next, first + samples);
+            }
         }
-        EXPECT_TRUE(samples == 0 || sizes.front() == 1) << "the first picture comes fast";
+        EXPECT_EQ(whole.front().samples, 1) << "the first picture comes fast";
     }
-    EXPECT_TRUE(pass_sizes(-1).empty());
+    EXPECT_TRUE(passes(0, -1).empty());
 }
 
 /// Pixels of the region that are not in exactly one tile, or tiles that leave it or a batch's size.
