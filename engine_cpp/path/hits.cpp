@@ -3,7 +3,7 @@
 
 namespace cardioid::CD_ISA_NS {
 
-void Walk::find_hits(bool coherent, int visibility) {
+void Walk::find_hits(bool coherent, int visibility, bool bounded) {
     path::RayState& rays = *now;
     path::HitState& hits = scratch.hits;
     scratch.counters.rays += static_cast<std::uint64_t>(rays.n);
@@ -14,7 +14,7 @@ void Walk::find_hits(bool coherent, int visibility) {
         ray.o = load3(rays.origin, i);
         ray.d = load3(rays.direction, i);
         ray.t_min = load(rays.t_min + i);
-        ray.t_max = coherent ? load(hits.t + i) : Float(1e30f);
+        ray.t_max = bounded ? load(hits.t + i) : Float(1e30f);
         ray.time = 0.0f;
         ray.mask = visibility != 0 ? Int(visibility) : visibility_bit(load(rays.flags + i));
         if (scratch.ray_log)

@@ -69,7 +69,8 @@ void PhotonWalk::start() {
         ray.direction = r.direction;
         ray.from_normal = {0.0f, 0.0f, 0.0f};
         ray.throughput = flux;
-        ray.t_min = ray.pdf = ray.width = ray.spread = 0.0f;
+        ray.t_min = ray.pdf = ray.spread = 0.0f;
+        ray.width = r.t_min;
         ray.min_pdf = most;
         ray.merge = r.density * cardioid::CD_ISA_NS::gather(request.emitter_density, select(go, e.emitter, Int(0)));
         ray.path = Int(i) + lane_index();
@@ -80,7 +81,16 @@ void PhotonWalk::start() {
         // A lamp that ends early: its photons start with bounces behind them.
         ray.depth = max(Int(scene.settings.max_bounces) - r.max_bounces, Int(0));
         ray.transparent = Int(0);
+        append(scratch.hits.t, rays.n, r.t_max, go);
         append_ray(rays, ray, go);
+    }
+}
+
+void PhotonWalk::drop_early_hits() {
+    path::HitState& hits = scratch.hits;
+    for (int i = 0; i < now->n; i += W) {
+        const Mask early = load(hits.t + i) < load(now->width + i);
+        store(hits.material + i, select(early, Int(scene.material_count), load(hits.material + i)));
     }
 }
 

@@ -12,6 +12,8 @@ struct PhotonWalk : Walk {
 
     // photon_start.cpp
     void start();
+    /// Photons that land before their light begins (light/emit.h) are gone.
+    void drop_early_hits();
 
     // photon_scatter.cpp
     void shade(int material, const std::int32_t* rays, int n);

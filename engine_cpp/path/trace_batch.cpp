@@ -20,7 +20,7 @@ void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path
     tracer.start();
     for (int event = 0; event < k_max_events && tracer.now->n > 0; ++event) {
         if (scratch.cancelled && scratch.cancelled->load(std::memory_order_relaxed)) return;
-        tracer.find_hits(event == 0, 0);
+        tracer.find_hits(event == 0, 0, event == 0);
         tracer.add_lamp_hits();
         tracer.sort_by_material();
         tracer.next->n = 0;

@@ -17,7 +17,8 @@ int trace_photons(const path::PhotonRequest& request, path::Scratch& scratch) {
     for (int event = 0; event < k_max_events && walk.now->n > 0; ++event) {
         if (scratch.cancelled && scratch.cancelled->load(std::memory_order_relaxed)) break;
         scratch.counters.photon_rays += static_cast<std::uint64_t>(walk.now->n);
-        walk.find_hits(false, k_seen_by_lobes);
+        walk.find_hits(false, k_seen_by_lobes, event == 0);
+        if (event == 0) walk.drop_early_hits();
         walk.sort_by_material();
         walk.next->n = 0;
         walk.for_each_chunk([&](int material, const std::int32_t* list, int n) {

@@ -18,8 +18,9 @@ struct Walk {
     path::RayState* next = nullptr;  ///< rays of the next one
 
     // hits.cpp
-    /// `visibility`: scene::Visibility bits of what can be hit; 0: by the kind of each ray.
-    void find_hits(bool coherent, int visibility);
+    /// `visibility`: scene::Visibility bits of what can be hit; 0: by the kind of each ray. `bounded`: scratch.hits.t holds how
+    /// far rays go.
+    void find_hits(bool coherent, int visibility, bool bounded);
     /// Stable counting sort of the live rays by material into scratch.order; bins[m] is the end of bin m.
     void sort_by_material();
     /// Calls body(material, rays, n) for chunks of at most 64 rays at one material; material_count stands for no hit.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All 32 767 strings of S and D up to length 14: the regular expressions of the classes (docs/architecture.md), read from the
 // light, put each in exactly one class, and the automaton, read from the camera, says the same.
-#include "path/automaton.h"
+#include "path/partition.h"
 
 #include <gtest/gtest.h>
 
@@ -50,6 +50,7 @@ PathClass by_expression(const std::string& from_light) {
 }
 
 using Step = std::function<State(State, bool)>;
+constexpr State (*k_step)(State, bool) = step;
 
 PathClass by_automaton(const std::string& from_light, const Step& next) {
     State state = State::specular;
@@ -76,7 +77,7 @@ TEST(PathClasses, EveryStringIsInExactlyOneClass) {
     for (const int n : members) EXPECT_GT(n, 10);
 }
 
-TEST(PathClasses, TheAutomatonAgrees) { EXPECT_EQ(disagreements(step), 0); }
+TEST(PathClasses, TheAutomatonAgrees) { EXPECT_EQ(disagreements(k_step), 0); }
 
 TEST(PathClasses, EveryWrongTransitionIsNoticed) {
     for (int from = 0; from < k_states; ++from) {
@@ -110,8 +111,66 @@ TEST(PathClasses, ExactlyOneSideEvaluatesAPath) {
         // Photons are gathered at the camera's first D, the last D from the light.
         const std::size_t gather_at = s.rfind('D');
         const bool by_photons = gather_at != std::string::npos && photon_is_stored(s, gather_at);
-        ASSERT_EQ(by_photons, is_caustic(by_automaton(s, step))) << s;
+        ASSERT_EQ(by_photons, is_caustic(by_automaton(s, k_step))) << s;
     }
+}
+
+/// What the photon automaton stores of a string, read from the light, at its last D: there camera paths gather. -1: nothing.
+int stored_by_automaton(const std::string& from_light, ClassSet classes) {
+    const std::size_t gather_at = from_light.rfind('D');
+    if (gather_at == std::string::npos) return -1;
+    PhotonState state = PhotonState::start;
+    for (std::size_t i = 0; i < gather_at; ++i) {
+        state = step(state, from_light[i] == 'S');
+        if ((reachable(state) & classes) == 0) return -1;
+    }
+    const PathClass c = stored_class(state);
+    return (bit(c) & classes) != 0 ? static_cast<int>(c) : -1;
+}
+
+TEST(PhotonAutomaton, StoresWhatTheExpressionsSayAndNoMore) {
+    constexpr ClassSet caustics = bit(PathClass::c1) | bit(PathClass::c2);
+    constexpr ClassSet all_but_d1 = k_all_classes & ~bit(PathClass::d1);
+    for (const std::string& s : all_strings()) {
+        const PathClass c = by_expression(s);
+        ASSERT_EQ(stored_by_automaton(s, caustics), is_caustic(c) ? static_cast<int>(c) : -1) << s;
+        ASSERT_EQ(stored_by_automaton(s, bit(PathClass::c1)), c == PathClass::c1 ? 3 : -1) << s;
+        ASSERT_EQ(stored_by_automaton(s, all_but_d1), c == PathClass::d1 ? -1 : static_cast<int>(c)) << s;
+    }
+}
+
+/// Whether the path of the string, read from the camera, lives to have light attached, when camera paths die where none of
+/// their classes can come.
+bool camera_lives(const std::string& from_light, ClassSet classes) {
+    State state = State::specular;
+    for (auto c = from_light.rbegin(); c != from_light.rend(); ++c) {
+        state = k_step(state, *c == 'S');
+        if ((reachable(state) & classes) == 0) return false;
+    }
+    return (bit(class_of(state)) & classes) != 0;
+}
+
+TEST(Partition, EveryPathIsEstimatedOnce) {
+    using scene::IndirectCaustics;
+    using scene::IntegratorKind;
+    for (const auto kind : {IntegratorKind::path_tracing, IntegratorKind::hybrid, IntegratorKind::photon_mapping}) {
+        for (const auto indirect : {IndirectCaustics::photons, IndirectCaustics::path_tracing}) {
+            scene::Settings settings;
+            settings.integrator = kind;
+            settings.indirect_caustics = indirect;
+            const Partition p = make_partition(settings, true);
+            for (const std::string& s : all_strings()) {
+                const int sides = camera_lives(s, p.camera) + (stored_by_automaton(s, p.photons) >= 0);
+                ASSERT_EQ(sides, 1) << s << ", integrator " << static_cast<int>(kind);
+            }
+        }
+    }
+    scene::Settings off;
+    off.integrator = IntegratorKind::hybrid;
+    off.indirect_caustics = IndirectCaustics::off;
+    const Partition p = make_partition(off, true);
+    EXPECT_EQ(p.camera | p.photons, k_all_classes & ~bit(PathClass::c2));
+    EXPECT_EQ(make_partition(off, false).camera, k_all_classes) << "nothing to catch: path tracing";
 }
 
 }  // namespace
