@@ -92,7 +92,8 @@ inline scene::SceneDesc with_photons(const CausticCase& c, scene::IntegratorKind
     scene::SceneDesc scene = c.scene;
     scene.settings.integrator = kind;
     scene.settings.samples = c.photon_samples;
-    scene.settings.photons = c.photons;
+    // Photons that bring direct light too must be more for the same noise.
+    scene.settings.photons = kind == scene::IntegratorKind::photon_mapping ? 3 * c.photons : c.photons;
     scene.settings.photon_radius = c.radius;
     scene.settings.radius_shrink = 1;
     return scene;
