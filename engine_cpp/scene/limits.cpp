@@ -16,7 +16,7 @@ constexpr std::int64_t k_film_bytes_per_pixel = (21 + 2 * 23) * 4;
 constexpr std::int64_t k_tree_bytes_per_triangle = 120;
 constexpr std::int64_t k_bytes_per_instance = 700;
 // An emitted photon is stored about once where emission is guided: 48 bytes as it is traced, again in the index, and its cells.
-constexpr std::int64_t k_bytes_per_photon = 130;
+constexpr std::int64_t k_bytes_per_photon = 150;
 constexpr std::int64_t k_huge = std::numeric_limits<std::int64_t>::max() / 8;
 
 std::int64_t times(std::int64_t a, std::int64_t b) {
