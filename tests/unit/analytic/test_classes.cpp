@@ -23,8 +23,9 @@ void expect_exact_sum(const film::Frame& f) {
 }
 
 TEST(Classes, TheBuffersSumToThePicture) {
-    for (const float threshold : {0.0f, 0.35f}) {
+    for (const float threshold : {0.0f, 0.35f}) {  // with photons: PT's threshold is always 0
         SceneMaker m = busy_scene();
+        m.scene.settings.integrator = scene::IntegratorKind::hybrid;
         m.scene.settings.caustic_roughness = threshold;
         const auto f = render_frame(m.scene);
         expect_exact_sum(*f);
@@ -102,6 +103,7 @@ TEST(Classes, TheThresholdDoesNotChangeHighlights) {
     m.area_lamp({0, 2, 2}, {0, 0, 0}, 1, 1, 3);
     m.probe({0, -2, 2}, {0, 0, 0}, 2);
     SceneMaker specular = m;
+    specular.scene.settings.integrator = scene::IntegratorKind::hybrid;
     specular.scene.settings.caustic_roughness = 0.4f;
     expect_same(m.scene, specular.scene, 0.02);
     const auto f = render_frame(specular.scene);
@@ -117,6 +119,7 @@ TEST(Classes, TheThresholdDoesNotChangeCaustics) {
     m.area_lamp({0, -1.5f, 2.5f}, {0, 0.5f, 0.5f}, 2, 2, 3);
     m.probe({0, -2, 1}, {0, 0.3f, 0}, 1);
     SceneMaker specular = m;
+    specular.scene.settings.integrator = scene::IntegratorKind::hybrid;
     specular.scene.settings.caustic_roughness = 0.4f;
     expect_same(m.scene, specular.scene, 0.02);
 }
@@ -128,6 +131,7 @@ TEST(Classes, TheThresholdDoesNotChangeMixedSurfaces) {
     m.world(background(0.2f));
     m.probe({0, -2, 2}, {0, 0, 0}, 1);
     SceneMaker specular = m;
+    specular.scene.settings.integrator = scene::IntegratorKind::hybrid;
     specular.scene.settings.caustic_roughness = 0.4f;
     expect_same(m.scene, specular.scene, 0.02);
 }

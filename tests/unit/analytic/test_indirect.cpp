@@ -74,7 +74,7 @@ TEST(AnalyticIndirect, TheBounceLimitCutsTheSeries) {
         for (int limit = 0; limit <= 4; ++limit) {
             SceneMaker m = plates(0.5f);
             (by_kind ? m.scene.settings.max_diffuse_bounces : m.scene.settings.max_bounces) = limit;
-            m.scene.settings.samples = 64;
+            m.scene.settings.samples = 256;
             // n bounces: light sampling at the vertex after them, so n + 1 reflections.
             double expected = 0;
             for (int reflections = 0; reflections <= limit + 1; reflections += 2)
