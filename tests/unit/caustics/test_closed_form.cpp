@@ -142,7 +142,8 @@ TEST(ClosedForm, BrightnessDoesNotDependOnTheFocalLength) {
             SceneMaker m = bulb_in_a_ball(kind, true);
             m.perspective({0.6f, 0.1f, 0.2f}, {0.9f, -0.4f, 0}, half_width);
             // Radii follow the footprint.
-            m.scene.settings.photon_radius = half_width < 0.2f ? 4 : 1;
+            m.scene.settings.photon_radius = half_width < 0.2f ? 6 : 1.5f;
+            m.scene.settings.photons = 8000;
             expect_value(m.scene, 1, "Combined", 0.03, 3e-3);
         }
     }

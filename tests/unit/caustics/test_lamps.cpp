@@ -83,6 +83,7 @@ TEST(Lamps, EveryKindMakesItsCaustic) {
     for (Lamp& l : lamps()) {
         CausticCase c = caustic_case(l.name, l.scene);
         c.bound = 0.03;
+        c.path_samples *= 3;
         const scene::SceneDesc hybrid = with_photons(c, IntegratorKind::hybrid);
         const bool traced = l.met;
         const Pictures judge = traced ? pictures(path_traced(c), 1000)
