@@ -9,7 +9,7 @@ import platform
 import sys
 from pathlib import Path
 
-from . import efficiency, engines, plot, scene_list, stages, store
+from . import caustics, choices, efficiency, engines, peers, photons, plot, scene_list, stages, store
 
 ROOT = Path(__file__).resolve().parents[1]
 REDUCED = ("cornell", "metallic_ring", "open_plane")
@@ -57,6 +57,8 @@ def arguments() -> argparse.Namespace:
     three = commands.add_parser("start", help="F12 to the first tile; export and build of a million triangles")
     three.add_argument("--runs", type=int, default=5)
     commands.add_parser("memory", help="bytes per triangle and per pixel")
+    for module in (caustics, peers, photons, choices):
+        module.add_arguments(commands)
     commands.add_parser("list", help="the engines and scenes, and what is missing for each")
     return parser.parse_args()
 
@@ -89,12 +91,6 @@ def chosen_scenes(options, default) -> list[scene_list.Scene]:
     return out
 
 
-def publish(rows: list[dict], columns: dict[str, str], stem: Path) -> None:
-    print(store.show_table(rows, columns))
-    store.write_table(rows, stem)
-    print(f"{os.path.relpath(stem)}.csv, .json")
-
-
 def run_efficiency(options, found) -> int:
     rival, ours, referee = usable(options, found, options.rival, options.ours, options.referee)
     seconds = options.seconds or (15.0 if options.full else 4.0)
@@ -116,7 +112,7 @@ def run_efficiency(options, found) -> int:
     for scene in chosen_scenes(options, names):
         rows += efficiency.compare_scene(records, options.cache, plan, scene)
     stem = options.cache / f"efficiency-{ours.key}-{rival.key}"
-    publish(rows, efficiency.COLUMNS, stem)
+    store.publish(rows, efficiency.COLUMNS, stem)
     if plot.efficiency(rows, ours.key, rival.title, stem.with_suffix(".png")):
         print(f"{os.path.relpath(stem)}.png")
     for note in efficiency.notes(rows, ours.key):
@@ -139,7 +135,7 @@ def run_rays(options, found) -> int:
         "rays_per_cpu_s": ".3e",
         "of_embree": ".1%",
     }
-    publish(rows, columns, options.cache / "rays")
+    store.publish(rows, columns, options.cache / "rays")
     print("Cycles does not count its rays: its rays are its paths times our rays a path.")
     return 0
 
@@ -153,7 +149,7 @@ def run_start(options, found) -> int:
         for engine in pair:
             rows.append({"scene": name} | stages.first_tile(engine, blend, width, options.runs, options.threads))
     columns = {"scene": "", "engine": "", "built": ".3f", "first_tile": ".3f", "one_sample": ".3f", "runs": "d"}
-    publish(rows, columns, options.cache / "start")
+    store.publish(rows, columns, options.cache / "start")
     print(
         "Seconds after F12: end of the build; first tile or sample; a whole picture of one sample, seen from outside."
     )
@@ -166,7 +162,7 @@ def run_memory(options, found) -> int:
     triangles = stages.build_grid(small, 708), stages.build_grid(large, 1225)
     rows = [stages.memory(engine, small, large, triangles, options.threads) for engine in pair]
     columns = {"engine": "", "per_triangle": ".1f", "blender_per_triangle": ".1f", "per_pixel": ".1f"}
-    publish(rows, columns, options.cache / "memory")
+    store.publish(rows, columns, options.cache / "memory")
     print("Bytes: slopes of the process's peak resident memory; the engine's triangles come on top of Blender's own.")
     return 0
 
@@ -194,6 +190,10 @@ def main() -> int:
         "start": run_start,
         "memory": run_memory,
         "list": run_list,
+        "caustics": caustics.run,
+        "peers": peers.run,
+        "photons": photons.run,
+        "choices": choices.run,
     }
     return commands[options.command](options, found)
 

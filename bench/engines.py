@@ -6,6 +6,7 @@ A new engine is one subclass and one line in `available()`.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
@@ -29,6 +30,8 @@ class Job:
     caustics: bool = False
     width: int = 0
     only_load: bool = False
+    settings: tuple[str, ...] = ()
+    """name=value of the engine's own settings; the command line program alone takes them."""
 
 
 class Engine:
@@ -47,6 +50,10 @@ class Engine:
 
     def problem(self) -> str:
         """Why it cannot run here; empty when it can."""
+        return ""
+
+    def stamp(self) -> str:
+        """Changes with the engine's program, where that is one file; results of another stamp are not reused."""
         return ""
 
 
@@ -101,12 +108,17 @@ class CommandLine(Engine):
     key, title = "cardioid-cli", "Cardioid, command line"
 
     def __init__(self, program: str, addon: str, cache: Path):
-        self.program, self.addon, self.cache = program, addon, cache
+        self.program, self.addon, self.cache, self.digest = program, addon, cache, ""
 
     def problem(self) -> str:
         if not Path(self.program).exists():
             return f"{self.program} is not there"
         return InBlender("", "", "CARDIOID", "", self.addon).problem()
+
+    def stamp(self) -> str:
+        if not self.digest:
+            self.digest = hashlib.sha256(Path(self.program).read_bytes()).hexdigest()[:8]
+        return self.digest
 
     def scene_file(self, job: Job) -> Path:
         """The exported scene of a job's file and settings, made on first use."""
@@ -130,6 +142,8 @@ class CommandLine(Engine):
     def command(self, job: Job, folder: Path) -> tuple[list[str], dict[str, str]]:
         command = [self.program, str(self.scene_file(job)), "-o", job.out or str(folder / "out.exr"), "-q"]
         command += ["--samples", str(job.samples), "--seed", str(job.seed), "--threads", str(job.threads)]
+        for setting in job.settings:
+            command += ["--set", setting]
         return [*command, "--stats", str(folder / "stats.json")], {}
 
     def extra(self, job: Job, folder: Path) -> dict:

@@ -8,16 +8,22 @@ from pathlib import Path
 import numpy as np
 
 
-def load(path: Path) -> np.ndarray:
-    """R, G and B of an EXR file, by the first of each channel name's last part (`ViewLayer.Combined.R`)."""
+def load(path: Path, layer: str = "") -> np.ndarray:
+    """R, G and B of a layer of an EXR file; without one, of the picture itself: `R` or `ViewLayer.Combined.R`."""
     import OpenEXR
 
     with OpenEXR.File(str(path), separate_channels=True) as file:
         channels = file.channels()
-        found = {}
-        for name in channels:
-            found.setdefault(name.rsplit(".", 1)[-1], np.asarray(channels[name].pixels, np.float32))
-        return np.stack([found[c] for c in "RGB"], -1)
+        return np.stack([np.asarray(channels[channel(list(channels), layer, c)].pixels, np.float32) for c in "RGB"], -1)
+
+
+def channel(names: list[str], layer: str, color: str) -> str:
+    """The name of a layer's colour among a file's channels. A plain R is the picture; `C1.R` is not."""
+    ends = [f"{layer}.{color}"] if layer else [color, f"Combined.{color}"]
+    for name in names:
+        if name in ends or (name.endswith("." + ends[-1])):
+            return name
+    raise KeyError(f"no channel {' or '.join(ends)} among {', '.join(names)}")
 
 
 def save(path: Path, pixels: np.ndarray) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Efficiency of an engine over its rival's, scene by scene."""
+"""Efficiency of an engine over its rival's, scene by scene; error over CPU time."""
 
 from __future__ import annotations
 
@@ -31,4 +31,30 @@ def efficiency(rows: list[dict], ours: str, rival: str, path: Path) -> bool:
     axes.legend()
     figure.savefig(path, dpi=120)
     pyplot.close(figure)
+    return True
+
+
+def curves(rows: list[dict], path: Path, figure: str = "rmse") -> bool:
+    """Writes the error over CPU seconds, a panel a scene and a line a method; False without matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    picture, panels = pyplot.subplots(1, max(len(scenes), 1), figsize=(4.2 * max(len(scenes), 1), 3.8), squeeze=False)
+    for scene, axes in zip(scenes, panels[0]):
+        for method, mark in (("PT", "s"), ("PTPPM", "o"), ("SPPM", "^")):
+            own = [row for row in rows if row["scene"] == scene and row["method"] == method]
+            axes.loglog([r["cpu"] for r in own], [r[figure] for r in own], marker=mark, label=method)
+        axes.set_title(scene)
+        axes.set_xlabel("CPU seconds")
+        axes.set_ylabel(figure)
+        axes.grid(True, which="both", linewidth=0.3)
+    panels[0][0].legend()
+    picture.tight_layout()
+    picture.savefig(path, dpi=120)
+    pyplot.close(picture)
     return True

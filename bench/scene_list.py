@@ -78,3 +78,16 @@ def all_scenes(cache: Path) -> dict[str, Scene]:
         Scene("million_triangles", built / "million_triangles.blend", 448, 2.0, built=True),
     ]
     return {scene.name: scene for scene in found}
+
+
+def caustic_scenes(cache: Path) -> dict[str, Scene]:
+    """Scenes that only the comparisons of photons use, by name."""
+    built = cache / "scenes"
+    found = [
+        Scene("pool_sun", built / "pool_sun.blend", 256, 0.0, built=True),
+        Scene("open_plane", ROOT / "scenes" / "open_plane.blend", 256, 0.0),
+        Scene("twelve_lamps", built / "twelve_lamps.blend", 256, 0.0, built=True),
+        Scene("cornell_large_lamp", built / "cornell_large_lamp.blend", 192, 0.0, built=True),
+        Scene("cornell_sky", built / "cornell_sky.blend", 192, 0.0, built=True),
+    ]
+    return {scene.name: scene for scene in found}

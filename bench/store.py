@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import tempfile
 import time
 from pathlib import Path
@@ -80,3 +81,10 @@ def show_table(rows: list[dict], columns: dict[str, str]) -> str:
         "  ".join(cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, widths)))
         for line in cells
     )
+
+
+def publish(rows: list[dict], columns: dict[str, str], stem: Path) -> None:
+    """Prints the table and writes it beside the pictures."""
+    print(show_table(rows, columns))
+    write_table(rows, stem)
+    print(f"{os.path.relpath(stem)}.csv, .json", flush=True)

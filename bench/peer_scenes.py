@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The three scenes of the thesis's chapter 5 with references and masks that another renderer made."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import exr, metrics
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT.parent / "shared" / "peers"
+NAMES = ("cornell", "ring", "shapes")
+COLUMNS = {"relmse": ".5f", "relmse_caustic": ".5f", "rmse": ".4f", "rmse_caustic": ".4f"}
+COLUMNS |= {"energy": ".4f", "energy_caustic": ".4f"}
+
+
+@dataclass
+class PeerScene:
+    """`masks`: pixels that are compared, and those of them with caustics; `error`: the reference's own RMSE there."""
+
+    name: str
+    blend: Path
+    reference: np.ndarray
+    masks: dict[str, np.ndarray]
+    error: dict[str, float]
+
+    def evaluate(self, image: np.ndarray) -> dict[str, float]:
+        """Figures of a picture; those of the caustics end in `_caustic`. `reference` is the reference's own squared
+        error over the picture's."""
+        out: dict[str, float] = {}
+        for name, mask in self.masks.items():
+            found = metrics.evaluate(image, self.reference, mask)
+            found["reference"] = (self.error[name] / max(found["rmse"], 1e-12)) ** 2
+            out |= {key + ("" if name == "all" else f"_{name}"): value for key, value in found.items()}
+        out["flip"] = metrics.flip(np.where(self.masks["all"][..., None], image, 0.0), self.shown())
+        return out
+
+    def shown(self) -> np.ndarray:
+        return np.where(self.masks["all"][..., None], self.reference, 0.0)
+
+
+def add_argument(parser) -> None:
+    parser.add_argument(
+        "--peers", type=Path, default=FOLDER, metavar="DIR", help="scenes, references, scripts of peers (%(default)s)"
+    )
+
+
+def load_all(folder: Path, names: list[str]) -> list[PeerScene]:
+    """The scenes by name, all without names. Ends the program with one sentence when the folder lacks something."""
+    for name in names:
+        if name not in NAMES:
+            sys.exit(f"no scene {name}; here there are {', '.join(NAMES)}")
+    return [load(folder, name) for name in names or NAMES]
+
+
+def load_some(folder: Path, names: list[str]) -> list[PeerScene]:
+    """Those of the names that are scenes of the folder; all without names."""
+    return [load(folder, name) for name in NAMES if name in names or not names]
+
+
+def load(folder: Path, name: str) -> PeerScene:
+    needed = [
+        folder / "scenes" / f"{name}.blend",
+        folder / "ref" / f"{name}_ref.exr",
+        folder / "ref" / f"{name}_masks.npz",
+    ]
+    missing = [str(path) for path in needed if not path.exists()]
+    if missing:
+        sys.exit(f"the peers' scenes are not there: {', '.join(missing)} (give their folder with --peers)")
+    reference = exr.load(needed[1])
+    with np.load(needed[2]) as file:
+        emit, caustic, own = file["emit"].astype(bool), file["caustic"].astype(bool), file["err"].astype(np.float64)
+    compared = ~emit
+    compared[-1] = False  # LuxCore's pictures have no last row
+    masks = {"all": compared, "caustic": compared & caustic}
+    error = {key: float(np.sqrt((own[mask] ** 2).mean())) for key, mask in masks.items()}
+    return PeerScene(name, needed[0], reference, masks, error)
+
+
+def load_picture(path: Path) -> np.ndarray:
+    """A picture of any peer. LuxCore's come as arrays one pixel row lower than everybody else's."""
+    if path.suffix != ".npy":
+        return exr.load(path)
+    pixels = np.load(path).astype(np.float32)
+    return np.concatenate([pixels[1:], pixels[-1:]])
+
+
+def recorded(folder: Path, scene: str, mark: float) -> dict[str, dict]:
+    """What the folder's own results say of a scene at a mark, by peer: another machine's CPU seconds."""
+    path = folder / "results.jsonl"
+    if not path.exists():
+        return {}
+    found = [json.loads(text) for text in path.read_text().splitlines() if text.strip()]
+    return {r["peer"]: r for r in found if r["scene"] == scene and r["mark"] == mark and "relmse_all" in r}
+
+
+def noise(pictures: list[np.ndarray], mask: np.ndarray) -> float | None:
+    """RMSE of one picture by the scatter of several seeds alone: it knows no reference, and sees no bias."""
+    if len(pictures) < 2:
+        return None
+    return float(np.sqrt(np.var(pictures, 0, ddof=1)[mask].mean()))
+
+
+def medians(runs: list[dict]) -> dict[str, float]:
+    """Medians, figure by figure, of several seeds."""
+    names = [key for key, value in runs[0].items() if isinstance(value, (int, float)) and value is not None]
+    return {key: float(np.median([run[key] for run in runs])) for key in names}

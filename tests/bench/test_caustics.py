@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curves, verdicts and bars of the caustic benchmarks, on programs that only pretend to render."""
+
+import dataclasses
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from bench import caustics, choices, exr, peer_scenes, peers, photons, products, runs, store, thesis
+from bench.engines import Job
+
+
+def test_the_picture_is_never_one_of_its_passes():
+    plain = ["A", "B", "C1.B", "C1.G", "C1.R", "Depth.Z", "G", "R"]
+    assert [exr.channel(plain, "", c) for c in "RGB"] == ["R", "G", "B"]
+    assert exr.channel(plain, "C1", "G") == "C1.G"
+    layered = ["ViewLayer.C1.R", "ViewLayer.Combined.R"]
+    assert exr.channel(layered, "", "R") == "ViewLayer.Combined.R"
+    assert exr.channel(layered, "C1", "R") == "ViewLayer.C1.R"
+    with pytest.raises(KeyError):
+        exr.channel(["C1.R"], "", "R")
+
+
+def test_samples_come_in_whole_passes():
+    pace = runs.Pace(first=1.0, each=0.05)
+    assert pace.samples(0.5) == 8
+    assert pace.samples(5.0) == 88
+    assert pace.repeated(trains=True) == 1.0
+    assert pace.repeated(trains=False) == pytest.approx(0.6)
+
+
+def test_a_part_that_would_overshoot_is_left_out():
+    pace = runs.Pace(1.0, 0.5)
+    assert caustics.next_part(0, 0.0, 4.0, pace) == 16
+    assert caustics.next_part(16, 4.5, 5.0, pace) == 0
+    assert caustics.next_part(16, 4.5, 8.5, pace) == 8
+
+
+class Clock:
+    """Start-up 0.5 s, 0.25 s a sample; every sample from `first` on is of the value of its number. Trains for 8 samples."""
+
+    key, calls = "clock", 0
+
+    def __init__(self, training: bool):
+        self.training = training
+
+    def stamp(self):
+        return "stamp"
+
+    def measured(self, records, cache, engine, job, kind="run"):
+        first = next((int(s.split("=")[1]) for s in job.settings if s.startswith("first_sample")), 0)
+        again = min(first, 8) if self.training else 0
+        numbers = range(first, first + job.samples)
+        path = cache / f"{kind}-{first}-{job.samples}-{job.seed}.npy"
+        np.save(path, np.full((4, 4, 3), np.mean(numbers)))
+        Clock.calls += 1
+        photons_stats = {"training_passes": 4 if self.training else 0}
+        return {"cpu": 0.5 + 0.25 * (again + job.samples), "path": str(path), "stats": {"photons": photons_stats}}
+
+
+@pytest.mark.parametrize("training", (True, False))
+def test_a_curve_is_one_long_render_whose_repetitions_do_not_count(tmp_path, monkeypatch, training):
+    clock = Clock(training)
+    monkeypatch.setattr(runs, "measured", clock.measured)
+    monkeypatch.setattr(caustics.exr, "load", lambda path: np.load(path))
+    mask = np.ones((4, 4), bool)
+    scene = peer_scenes.PeerScene("s", tmp_path / "s.blend", np.ones((4, 4, 3)), {"all": mask}, {"all": 0.0})
+    points = caustics.curve(None, tmp_path, clock, scene, (), 1, [4.5, 8.5, 16.5], 2)
+    for point in points:
+        assert point["cpu"] == pytest.approx(0.5 + 0.25 * point["samples"])
+        # the mean of the numbers 0 … n-1, whatever the parts were
+        assert point["picture"].mean() == pytest.approx((point["samples"] - 1) / 2)
+    assert [point["samples"] for point in points] == [16, 32, 64]
+
+
+def row(method, mark, rmse, cpu=None, **more):
+    figures = {"relmse": rmse * rmse, "energy": 1.0, "reference": 0.0}
+    return {"scene": "s", "mark": mark, "method": method, "rmse": rmse, "cpu": cpu or mark} | figures | more
+
+
+def test_ours_is_judged_against_the_best_of_the_others():
+    rows = [row("PT", 4.0, 0.2), row("SPPM", 4.0, 0.1), row("PTPPM", 4.0, 0.105)]
+    assert caustics.judge(rows) == [
+        {"scene": "s", "mark": 4.0, "ratio": pytest.approx(1.05), "best": "SPPM", "word": "tie"}
+    ]
+    rows[2]["rmse"] = 0.12
+    assert caustics.judge(rows)[0]["word"] == "over"
+    assert any("no, 1 over" in note for note in caustics.notes(rows))
+    rows[2]["rmse"] = 0.09
+    assert caustics.judge(rows)[0]["word"] == "under"
+
+
+def test_a_mark_that_was_met_roughly_is_brought_to_our_time():
+    rows = [row("SPPM", 4.0, 0.1, cpu=1.0), row("PTPPM", 4.0, 0.06, cpu=4.0)]
+    # at four times the time SPPM would have had at best half of its error
+    assert caustics.judge(rows)[0]["word"] == "over"
+    assert any("took 1.0 CPU s" in note for note in caustics.notes(rows))
+
+
+def test_a_wrong_energy_and_a_noisy_reference_are_named():
+    notes = caustics.notes([row("PTPPM", 4.0, 0.1, energy=0.98, reference=0.4)])
+    assert any("-2.00%" in note for note in notes)
+    assert any("40%" in note for note in notes)
+
+
+def peer_row(product, whole, caustic, energy=1.0):
+    return {
+        "scene": "s",
+        "mark": 30.0,
+        "product": product,
+        "relmse": whole,
+        "relmse_caustic": caustic,
+        "energy": energy,
+    }
+
+
+def test_the_bar_is_below_every_rival_in_both_columns():
+    rows = [peer_row("cardioid", 0.01, 0.03), peer_row("lux_pgi", 0.02, 0.02), peer_row("cycles34", 0.1, 0.2)]
+    notes = peers.judge(rows, ["lux_pgi", "cycles34"])
+    assert any("whole: 0.50" in n and n.endswith(": met") for n in notes)
+    assert any("caustic: 1.50" in n and n.endswith("(lux_pgi): missed") for n in notes)
+    rows += [peer_row("mi_split (recorded)", 0.01, 0.01)]
+    assert sum("goal met" in n for n in peers.judge(rows, ["lux_pgi"])) == 1
+    rows[0]["energy"] = 0.985
+    assert any("-1.50%" in n for n in peers.judge(rows, []))
+
+
+def test_every_product_is_first_once():
+    names = ["a", "b", "c"]
+    assert [peers.interleaved(names, seed)[0] for seed in (1, 2, 3)] == names
+    assert all(sorted(peers.interleaved(names, seed)) == names for seed in range(1, 9))
+
+
+def test_luxcore_pictures_are_moved_by_a_row(tmp_path):
+    pixels = np.arange(4.0)[:, None, None] * np.ones((4, 2, 3))
+    np.save(tmp_path / "a.npy", pixels)
+    assert list(peer_scenes.load_picture(tmp_path / "a.npy")[:, 0, 0]) == [1, 2, 3, 3]
+
+
+def test_a_folder_without_scenes_is_one_sentence(tmp_path):
+    with pytest.raises(SystemExit, match="--peers"):
+        peer_scenes.load_all(tmp_path, ["cornell"])
+    with pytest.raises(SystemExit, match="no scene house"):
+        peer_scenes.load_all(tmp_path, ["house"])
+
+
+def test_recorded_figures_are_found_by_scene_and_mark(tmp_path):
+    lines = [{"scene": "s", "mark": 30.0, "peer": "mi_split", "relmse_all": 0.004}, {"scene": "s", "mark": 8.0}]
+    (tmp_path / "results.jsonl").write_text("\n".join(json.dumps(one | {"peer": "mi_split"}) for one in lines))
+    assert peer_scenes.recorded(tmp_path, "s", 30.0)["mi_split"]["relmse_all"] == 0.004
+    assert peer_scenes.recorded(tmp_path, "s", 8.0) == {}
+    assert peer_scenes.recorded(tmp_path / "none", "s", 30.0) == {}
+
+
+def test_the_scatter_of_seeds_is_the_noise_of_one_picture():
+    rng = np.random.default_rng(3)
+    pictures = [1.0 + 0.1 * rng.standard_normal((80, 80, 3)) for _ in range(3)]
+    mask = np.ones((80, 80), bool)
+    assert peer_scenes.noise(pictures, mask) == pytest.approx(0.1, rel=0.03)
+    assert peer_scenes.noise(pictures[:1], mask) is None
+
+
+def script_setup(tmp_path):
+    return products.Setup(store.Store(tmp_path / "r.jsonl"), tmp_path, tmp_path, None, 2)
+
+
+def scene_named(tmp_path):
+    return peer_scenes.PeerScene("s", tmp_path / "s.blend", np.ones((2, 2, 3)), {}, {})
+
+
+def test_a_script_is_run_once_and_its_result_kept(tmp_path):
+    (tmp_path / "run.py").write_text(
+        "import json, sys\n"
+        "out = sys.argv[sys.argv.index('--out') + 1]; mark = sys.argv[sys.argv.index('--marks') + 1]\n"
+        "open(f'{out}_{mark}.exr', 'w').close()\n"
+        "print('RESULT ' + json.dumps({'cpu': 30.5, 'spp': 12}))\n"
+    )
+    setup, product = script_setup(tmp_path), products.Script("p", sys.executable, "run.py")
+    first = product.render(setup, scene_named(tmp_path), 1, 30.0)
+    assert (first["cpu"], first["samples"]) == (30.5, 12)
+    (tmp_path / "run.py").unlink()
+    assert product.render(setup, scene_named(tmp_path), 1, 30.0) == first
+
+
+def test_a_script_that_fails_says_what_it_printed(tmp_path):
+    (tmp_path / "run.py").write_text("print('no device'); raise SystemExit(2)\n")
+    product = products.Script("p", sys.executable, "run.py")
+    with pytest.raises(RuntimeError, match=r"exit code 2: no device"):
+        product.render(script_setup(tmp_path), scene_named(tmp_path), 1, 30.0)
+    assert "is not there" in products.Script("p", str(tmp_path / "none"), "run.py").problem()
+
+
+def test_stage_shares_add_up():
+    seconds = {"build": 1.0, "camera": 6.0, "photon_trace": 2.0, "photon_index": 0.5, "photon_learn": 0.5, "tree": 0.9}
+    counts = {"passes": 3, "emitted": 1000, "stored": 100, "gathered": 5000}
+    made = photons.stage_row(
+        "s", "PTPPM", {"cpu": 20.0, "stats": {"photons": counts, "seconds": seconds, "samples": 16}}
+    )
+    assert sum(made[stage] for stage in photons.STAGES) == pytest.approx(1.0)
+    assert made["stored_of_emitted"] == pytest.approx(0.1)
+    assert made["gathered_per_s"] == pytest.approx(250.0)
+
+
+def test_the_thesis_figures_agree_with_each_other():
+    for name, table in thesis.TABLE_5_1.items():
+        assert table["deposited"] / table["emitted"] == pytest.approx(table["share"], rel=0.02)
+        for method in runs.METHODS:
+            assert sum(thesis.shares(name, method).values()) == pytest.approx(1.0, abs=0.03)
+
+
+def guided_rows(gathered, error, cpu):
+    base = {"scene": "s", "cpu": 10.0, "relmse": 0.1, "gathered_per_emitted": 0.1}
+    on = base | {"cpu": cpu, "relmse": error, "gathered_per_emitted": gathered}
+    return [
+        base | {"photons": "half", "guided": "no"},
+        base | {"photons": "auto", "guided": "no"},
+        on | {"photons": "half", "guided": "yes"},
+        on | {"photons": "auto", "guided": "yes"},
+    ]
+
+
+def test_guided_emission_is_judged_by_photons_and_by_time():
+    good = photons.judge(guided_rows(1.0, 0.05, 12.0))
+    assert "10.0 times" in good[0] and good[0].endswith(": met")
+    assert any("0.60 of the time" in line and line.endswith(": met") for line in good)
+    slow = photons.judge(guided_rows(0.4, 0.1, 12.0))
+    assert slow[0].endswith(": missed")
+    assert any("1.20 of the time" in line and line.endswith(": missed") for line in slow)
+    assert "out of time" in photons.judge(guided_rows(1.0, 0.05, 12.0)[:2])[0]
+
+
+def test_guided_and_unguided_differ_in_nothing_else():
+    found = photons.variants(dataclasses.make_dataclass("S", ["width"])(256))
+    assert found["half", "yes"][0] == found["half", "no"][0]
+    assert found["half", "yes"][2:] == found["half", "no"][2:] == ("photons=20480",)
+
+
+def test_a_choice_costs_error_times_time():
+    rows = [
+        {"scene": "cornell_sky", "choice": "default", "relmse": 0.1, "relmse_caustic": 0.2, "cpu": 10.0, "energy": 1.0},
+        {"scene": "cornell_sky", "choice": "PT", "relmse": 0.1, "relmse_caustic": 0.2, "cpu": 5.0, "energy": 1.0},
+    ]
+    choices.relative(rows)
+    assert rows[1]["cost"] == pytest.approx(0.5)
+    assert choices.notes(rows) == ["cornell_sky: PTPPM's relMSE · CPU s is 2.00 of PT's: above PT"]
+
+
+def test_runs_of_other_settings_are_other_runs(tmp_path):
+    blend = tmp_path / "a.blend"
+    blend.touch()
+    job = Job(str(blend), "", 8, 1, settings=("integrator=hybrid",))
+    keys = {
+        runs.identity("run", Clock(True), one)
+        for one in (job, dataclasses.replace(job, settings=("a=b",)), dataclasses.replace(job, seed=2))
+    }
+    assert len(keys) == 3
