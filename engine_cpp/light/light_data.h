@@ -174,4 +174,14 @@ struct LightData {
     const std::int32_t* triangle_emitter = nullptr;  ///< emitter id or -1
 };
 
+/// Rays that lobes have sent find the emitter wherever its light would reach them; false: some or all of them do not.
+inline bool lobes_can_hit(const LightData& lights, int emitter) {
+    if (emitter >= lights.lamp_count) return true;
+    const std::int32_t* numbers = lights.lamp_int + emitter * k_lamp_ints;
+    const auto kind = static_cast<EmitterKind>(numbers[lamp::kind]);
+    constexpr std::int32_t lobes = 2 | 4 | 8;  // scene::Visibility: diffuse, glossy, transmission
+    return kind != EmitterKind::delta_point && kind != EmitterKind::delta_sun &&
+           (numbers[lamp::hit_visibility] & lobes) == (numbers[lamp::visibility] & lobes);
+}
+
 }  // namespace cardioid::light

@@ -94,7 +94,8 @@ struct alignas(64) BatchResult {
 /// Counted facts; the sums over threads go to the statistics.
 struct Counters {
     std::uint64_t camera_paths = 0, rays = 0, shadow_rays = 0, vertices = 0, light_samples = 0, lobes_dropped = 0;
-    std::uint64_t gathers = 0, gathered = 0;                          ///< hit points, and photons that they found
+    std::uint64_t gathers = 0, gathered = 0,
+                  evaluated = 0;  ///< hit points; photons that they found; those that were evaluated
     std::uint64_t photons = 0, photon_rays = 0, photons_dropped = 0;  ///< emitted; dropped: flux that was not finite
     void add(const Counters& o) {
         camera_paths += o.camera_paths;
@@ -105,6 +106,7 @@ struct Counters {
         lobes_dropped += o.lobes_dropped;
         gathers += o.gathers;
         gathered += o.gathered;
+        evaluated += o.evaluated;
         photons += o.photons;
         photon_rays += o.photon_rays;
         photons_dropped += o.photons_dropped;
@@ -149,11 +151,13 @@ struct BatchRequest {
     const PhotonPass* photons = nullptr;  ///< null: nothing is gathered
 };
 
-/// Photons that the vertices of one packet have found: lists by lane.
+/// Photons that the vertices of one packet have found: lists by lane. Where there are more, every second one is dropped, as often
+/// as it takes: at a focus thousands would be found.
 struct alignas(64) GatherLists {
     static constexpr int capacity = 256;
     std::int32_t photon[capacity][16];
-    int n[16];
+    std::int32_t n[16];
+    std::int32_t stride[16];  ///< what each photon of the list stands for
 };
 
 /// Fixed memory for records; when it is full, direct light is evaluated early.

@@ -55,6 +55,16 @@ GatherEval eval_d_lobes(const trace::SceneView& scene, const path::VertexChunk& 
     return sum;
 }
 
+/// Keeps the photons of a lane whose number, shifted by `first`, has none of the mask's bits.
+void thin(path::GatherLists& lists, int lane, std::uint32_t first, std::uint32_t mask) {
+    int kept = 0;
+    for (int at = 0; at < lists.n[lane]; ++at) {
+        const std::int32_t index = lists.photon[at][lane];
+        if (((static_cast<std::uint32_t>(index) + first) & mask) == 0) lists.photon[kept++][lane] = index;
+    }
+    lists.n[lane] = kept;
+}
+
 }  // namespace
 
 Float Tracer::gather_radius(const path::VertexChunk& chunk, int i, Float footprint, Mask here) {
@@ -101,6 +111,7 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
     const path::PhotonPass& pass = *request.photons;
     path::GatherLists& lists = scratch.gather;
     const Int found = load(lists.n);
+    const Float stride = to_float(load(lists.stride));
     const Vec3 wo = cardioid::CD_ISA_NS::load3(chunk.wo, i), ng = cardioid::CD_ISA_NS::load3(chunk.normal_geometric, i);
     const Float radius = load(chunk.radius + i), inv_p = load(chunk.gather + i);
     const Int camera_bounces = byte_of(load(chunk.depth + i), 0);
@@ -114,7 +125,7 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
         lanes &= abs(dot(q.normal, ng)) > Float(k_least_cosine);
         if (none(lanes)) continue;
         const GatherEval e = eval_d_lobes(scene, chunk, i, wo, ng, q, lanes);
-        Float weight = 1.0f / max(abs(dot(q.wp, q.normal)), 1e-4f);
+        Float weight = stride / max(abs(dot(q.wp, q.normal)), 1e-4f);
         if (request.partition.blend_hits) {
             // As RayState::merge of the camera path that goes the same way; hits of lamps take the other share.
             const Float projected = max(abs(dot(ng, q.wp)), 1e-6f);
@@ -126,7 +137,6 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
         const Spectrum c = select(lanes, e.f_cos * q.flux * weight, Spectrum(0.0f));
         for (int k = 1; k < path::k_classes; ++k) sum[k] = select(q.path_class == Int(k), sum[k] + c, sum[k]);
     }
-    for (int k = 0; k < W; ++k) lists.n[k] = 0;
 }
 
 void Tracer::gather_photons(const path::VertexChunk& chunk, int i) {
@@ -135,28 +145,46 @@ void Tracer::gather_photons(const path::VertexChunk& chunk, int i) {
     const Mask active = first_lanes(chunk.n - i) & (inv_p > Float(0.0f));
     if (none(active)) return;
     path::GatherLists& lists = scratch.gather;
-    for (int k = 0; k < 16; ++k) lists.n[k] = 0;
     Spectrum sum[path::k_classes] = {};
     int found[W] = {};
+    for (int k = 0; k < W; ++k) {
+        lists.n[k] = 0;
+        lists.stride[k] = 1;
+    }
+    // Where a list is thinned, which photons stay differs from vertex to vertex.
+    const Int phase = hash(bits_of(load(chunk.position[0] + i)), bits_of(load(chunk.position[1] + i)));
     for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
         const int k = std::countr_zero(b);
         const float center[3] = {chunk.position[0][i + k], chunk.position[1][i + k], chunk.position[2][i + k]};
         const float n[3] = {chunk.normal_geometric[0][i + k], chunk.normal_geometric[1][i + k],
                             chunk.normal_geometric[2][i + k]};
         const float radius = chunk.radius[i + k];
+        const auto first = static_cast<std::uint32_t>(phase[k]);
+        std::uint32_t mask = 0;
         photon::for_each_photon(pass.map, center, radius, [&](std::int32_t index) {
-            const float* q = pass.map.photons[index].position;
-            const float off = (q[0] - center[0]) * n[0] + (q[1] - center[1]) * n[1] + (q[2] - center[2]) * n[2];
+            const float off = (pass.map.x[index] - center[0]) * n[0] + (pass.map.y[index] - center[1]) * n[1] +
+                              (pass.map.z[index] - center[2]) * n[2];
             if (off > k_flatness * radius || off < -k_flatness * radius) return;
-            if (lists.n[k] == path::GatherLists::capacity) add_photons(chunk, i, sum);
-            lists.photon[lists.n[k]++][k] = index;
             ++found[k];
-            if (pass.gathered) pass.gathered[index].fetch_add(1, std::memory_order_relaxed);
+            if (((static_cast<std::uint32_t>(index) + first) & mask) != 0) return;
+            if (lists.n[k] == path::GatherLists::capacity) {
+                mask = 2 * mask + 1;
+                thin(lists, k, first, mask);
+                if (((static_cast<std::uint32_t>(index) + first) & mask) != 0) return;
+            }
+            // A list that is still full after thinning would need photons of equal numbers.
+            lists.photon[lists.n[k]++][k] = index;
         });
+        lists.stride[k] = static_cast<std::int32_t>(mask + 1);
+        scratch.counters.evaluated += static_cast<std::uint64_t>(lists.n[k]);
+        scratch.counters.gathered += static_cast<std::uint64_t>(found[k]);
+        if (pass.gathered) {
+            for (int at = 0; at < lists.n[k]; ++at)
+                pass.gathered[lists.photon[at][k]].fetch_add(mask + 1, std::memory_order_relaxed);
+        }
     }
     add_photons(chunk, i, sum);
     scratch.counters.gathers += static_cast<std::uint64_t>(count(active));
-    for (const int n : found) scratch.counters.gathered += static_cast<std::uint64_t>(n);
     add_estimate(chunk, i, sum, found, active);
 }
 

@@ -167,7 +167,7 @@ Float Tracer::spread_after(const path::VertexChunk& chunk, int i, const Choice& 
     const nodes::ShadingChunk& s = scratch.shading;
     const Mask backfacing = load(s.backfacing + i) > Float(0.5f);
     // A fillet shows all its surroundings in one pixel; a gather that wide would be slow and blur more than it cleans.
-    const float most = k_most_turn * scene.camera.pixel_x;
+    const float most = k_most_turn * scene.camera.pixel_angle;
     const Float curvature = mean_curvature(scene, load(s.instance + i), load(s.triangle + i), backfacing, bends);
     const Float turn = clamp(width * curvature, -most, most);
     Float inv_eta = 1.0f;

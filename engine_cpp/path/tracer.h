@@ -75,7 +75,7 @@ struct Tracer : Walk {
     /// Radius of the gather, or what the pixel has come to.
     Float gather_radius(const path::VertexChunk& chunk, int i, Float footprint, Mask here);
     void gather_photons(const path::VertexChunk& chunk, int i);
-    /// Adds the photons of scratch.gather to the lanes' sums by class, and empties the lists.
+    /// Adds the photons of scratch.gather to the lanes' sums by class.
     void add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[path::k_classes]);
     /// From flux to radiance; in the per-pixel schedule to the pixels' statistics.
     void add_estimate(const path::VertexChunk& chunk, int i, const Spectrum (&sum)[path::k_classes],

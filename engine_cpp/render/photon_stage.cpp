@@ -24,6 +24,9 @@ constexpr double k_most_photons = 2e6;
 /// Photons for each camera path.
 constexpr double k_photons_per_path = 0.5;
 
+/// For lamps that camera paths never find: photons are everything. Finite, so that weights stay numbers.
+constexpr float k_never_hit = 1e20f;
+
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 std::vector<float> emission_power(const light::LightData& lights) {
@@ -102,8 +105,10 @@ photon::Emission PhotonStage::Impl::emission(std::uint32_t number) const {
 }
 
 void PhotonStage::Impl::learn_densities() {
-    for (std::size_t e = 0; e < emitter_density.size(); ++e)
-        emitter_density[e] = start_power[e] * guide.gain(static_cast<std::int32_t>(e));
+    for (std::size_t e = 0; e < emitter_density.size(); ++e) {
+        const bool hit = light::lobes_can_hit(*view.lights, static_cast<int>(e));
+        emitter_density[e] = hit ? start_power[e] * guide.gain(static_cast<std::int32_t>(e)) : k_never_hit;
+    }
 }
 
 std::vector<photon::Photon> PhotonStage::Impl::trace(std::int64_t emitted, const std::function<PhotonWorker()>& worker,
@@ -235,8 +240,9 @@ BalanceMeter* PhotonStage::meter(const Pass& pass) {
 
 void PhotonStage::Impl::balance(const Pass& p, const path::Counters& work) {
     if (!meter || p.number + 1 != k_training_passes) return;
-    // A photon that is gathered costs about an eighth of a ray.
-    const double photon_cost = static_cast<double>(work.photon_rays) + static_cast<double>(work.gathered) / 8;
+    // A photon that is evaluated costs about an eighth of a ray, one that is only found much less.
+    const double photon_cost = static_cast<double>(work.photon_rays) + static_cast<double>(work.evaluated) / 8 +
+                               static_cast<double>(work.gathered) / 64;
     const double camera_cost = static_cast<double>(work.rays) + static_cast<double>(work.shadow_rays);
     const double wanted = static_cast<double>(per_sample) * meter->factor(camera_cost, photon_cost);
     per_sample = static_cast<std::int64_t>(std::clamp(wanted, 1.0, k_most_photons / most_samples));
@@ -265,7 +271,8 @@ void PhotonStage::Impl::learn_guide() {
         photon::Lesson lesson;
         lesson.emitter = e.emitter;
         std::copy(std::begin(e.u), std::end(e.u), lesson.u);
-        lesson.value = static_cast<float>(times) * std::fabs(luminance(q.flux)) * e.density;
+        // The root: what is to be small is the sum of the pixels' variances, not of their means.
+        lesson.value = std::sqrt(static_cast<float>(times)) * std::fabs(luminance(q.flux)) * e.density;
         lesson.density = e.density;
         lessons.push_back(lesson);
     }

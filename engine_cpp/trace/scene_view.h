@@ -49,6 +49,7 @@ struct InstanceArrays {
 struct CameraView {
     scene::CameraDesc desc;
     float pixel_x = 0, pixel_y = 0;  ///< size of a pixel on the view plane
+    float pixel_angle = 0;           ///< angle between neighbouring pixels; orthographic: that of a usual lens
 };
 
 struct SceneView {

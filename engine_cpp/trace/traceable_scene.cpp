@@ -105,10 +105,12 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
     const auto& plane = v.camera.desc.view_plane;
     v.camera.pixel_x = (plane[1] - plane[0]) / static_cast<float>(desc.settings.width);
     v.camera.pixel_y = (plane[3] - plane[2]) / static_cast<float>(desc.settings.height);
+    const bool orthographic = v.camera.desc.kind == scene::CameraKind::orthographic;
+    v.camera.pixel_angle = orthographic ? 1.0f / static_cast<float>(desc.settings.width) : v.camera.pixel_x;
     v.geometry.camera_to_world = v.camera.desc.transform;
     v.geometry.world_to_camera = inverse(v.camera.desc.transform);
     v.geometry.view_plane = plane;
-    v.geometry.orthographic = v.camera.desc.kind == scene::CameraKind::orthographic;
+    v.geometry.orthographic = orthographic;
     s.stats.image_bytes = s.images->memory_bytes();
     s.stats.light_bytes = s.lights->memory_bytes();
 }
