@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import caustics, exr, metrics, peer_scenes, photons, reference, runs, scene_list, store
+from . import caustics, exr, guided, metrics, peer_scenes, reference, runs, scene_list, store
 from .engines import Job
 
 HYBRID = runs.METHODS["PTPPM"]
@@ -73,7 +73,7 @@ def soft_scene(records, options, engine, scene) -> Judged | None:
     ref = reference.make(records, options.cache, engine, scene.name, replace(job, samples=max(8, samples)), 8)
     if ref is None:
         return None
-    masks = {"all": np.ones(ref.mean.shape[:2], bool), "caustic": photons.caustic_mask(ref.paths)}
+    masks = {"all": np.ones(ref.mean.shape[:2], bool), "caustic": guided.caustic_mask(ref.paths)}
     return Judged(scene.name, scene.path, scene.width, ref.mean, masks)
 
 

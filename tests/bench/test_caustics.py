@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from bench import caustics, choices, exr, peer_scenes, peers, photons, products, runs, store, thesis
+from bench import caustics, choices, exr, guided, peer_scenes, peers, photons, products, runs, store, thesis
 from bench.engines import Job
 
 
@@ -210,8 +210,8 @@ def test_the_thesis_figures_agree_with_each_other():
 
 
 def guided_rows(gathered, error, cpu):
-    base = {"scene": "s", "cpu": 10.0, "relmse": 0.1, "gathered_per_emitted": 0.1}
-    on = base | {"cpu": cpu, "relmse": error, "gathered_per_emitted": gathered}
+    base = {"scene": "s", "cpu": 10.0, "relmse": 0.1, "relmse_C1": 0.1, "gathered_per_emitted": 0.1}
+    on = base | {"cpu": cpu, "relmse": error, "relmse_C1": error, "gathered_per_emitted": gathered}
     return [
         base | {"photons": "half", "guided": "no"},
         base | {"photons": "auto", "guided": "no"},
@@ -221,17 +221,32 @@ def guided_rows(gathered, error, cpu):
 
 
 def test_guided_emission_is_judged_by_photons_and_by_time():
-    good = photons.judge(guided_rows(1.0, 0.05, 12.0))
+    good = guided.judge(guided_rows(1.0, 0.05, 12.0))
     assert "10.0 times" in good[0] and good[0].endswith(": met")
     assert any("0.60 of the time" in line and line.endswith(": met") for line in good)
-    slow = photons.judge(guided_rows(0.4, 0.1, 12.0))
+    slow = guided.judge(guided_rows(0.4, 0.1, 12.0))
     assert slow[0].endswith(": missed")
     assert any("1.20 of the time" in line and line.endswith(": missed") for line in slow)
-    assert "out of time" in photons.judge(guided_rows(1.0, 0.05, 12.0)[:2])[0]
+    assert "out of time" in guided.judge(guided_rows(1.0, 0.05, 12.0)[:2])[0]
+
+
+def test_the_references_own_error_is_taken_off(tmp_path, monkeypatch):
+    rng = np.random.default_rng(5)
+    noisy = lambda: 0.5 + 0.1 * np.repeat(rng.standard_normal((90, 90, 1)), 3, axis=-1)  # noqa: E731
+    parts = np.array([noisy() for _ in range(8)])
+    made = guided.truth(parts, parts - 0.25, np.ones((90, 90), bool))
+    image = noisy()
+    monkeypatch.setattr(guided.exr, "load", lambda path, layer="": image - 0.25 if layer else image)
+    counts = {"emitted": 100, "gathered": 250}
+    got = made.evaluate({"path": "", "cpu": 1.0, "stats": {"photons": counts, "samples": 8}})
+    for name in ("relmse", "relmse_caustic", "relmse_C1"):
+        assert got[name] == pytest.approx(0.01 / 0.26, rel=0.06)
+    assert got["reference"] == pytest.approx(1 / 9, rel=0.1)
+    assert got["gathered_per_emitted"] == 2.5
 
 
 def test_guided_and_unguided_differ_in_nothing_else():
-    found = photons.variants(dataclasses.make_dataclass("S", ["width"])(256))
+    found = guided.variants(dataclasses.make_dataclass("S", ["width"])(256))
     assert found["half", "yes"][0] == found["half", "no"][0]
     assert found["half", "yes"][2:] == found["half", "no"][2:] == ("photons=20480",)
 
