@@ -6,16 +6,15 @@ usage: mutants.py [--table FILE] [--work DIR] [--list] [--no-baseline] [--whole]
 Each mutant of the table (tests/mutants/caustics.py) replaces texts that occur exactly once in one file of the engine.
 The tree is copied to the work directory, the mutant is applied there, what depends on it is built and the tests
 that are to notice it run: they must pass without the mutant and fail with it. --whole runs all tests of the programs.
+The copy has the kernels of one lane width only (AVX2), so that a mutant of them is built once instead of three times.
 """
 
 from __future__ import annotations
 
 import argparse
-import filecmp
 import os
 import re
 import runpy
-import shutil
 import subprocess
 import sys
 import time
@@ -25,6 +24,24 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 COPIED = ("CMakeLists.txt", "cmake", "engine_cpp", "tests/unit")
+ONE_WIDTH = {  # changes to the copy: paths in 8 lanes only; scalar code uses the single lane of nodes
+    "cmake/Rooms.cmake": [
+        (
+            "        target_sources(cardioid_${room} PRIVATE $<TARGET_OBJECTS:${name}>)",
+            "        if(width EQUAL 8 OR (width EQUAL 1 AND NOT room STREQUAL path))\n"
+            "            target_sources(cardioid_${room} PRIVATE $<TARGET_OBJECTS:${name}>)\n"
+            "        endif()",
+        )
+    ],
+    "engine_cpp/path/select_kernels.cpp": [
+        ("if (width == 16) return w16;", "if (w1 == nullptr || w16 == nullptr) return nullptr;"),
+        ("return width == 8 ? w8 : w1;", "return w8;"),
+        *[
+            (f"isa_w1::{k}, isa_w8::{k}, isa_w16::{k}", f"isa_w8::{k}, isa_w8::{k}, isa_w8::{k}")
+            for k in ("trace_batch", "trace_photons", "replay_rays")
+        ],
+    ],
+}
 FAILED = re.compile(r"^\[  FAILED  \] (\S+)(?: \(|,| *$)", re.MULTILINE)
 
 
@@ -60,16 +77,28 @@ def load_table(path: Path) -> list[Mutant]:
     return mutants
 
 
-def mutated(mutant: Mutant, text: str) -> str:
-    """The file's text with the mutant in it."""
-    for old, new in mutant.edits:
+def edited(what: str, file: str, edits: list[tuple[str, str]], text: str) -> str:
+    """The file's text with the edits in it."""
+    for old, new in edits:
         count = text.count(old)
         if count != 1:
-            die(f"{mutant.name}: occurs {count} times in {mutant.file}, bring the table up to date:\n{old}")
+            die(f"{what}: occurs {count} times in {file}, bring the table up to date:\n{old}")
         if old == new:
-            die(f"{mutant.name}: changes nothing")
+            die(f"{what}: changes nothing")
         text = text.replace(old, new)
     return text
+
+
+def mutated(mutant: Mutant, text: str) -> str:
+    return edited(mutant.name, mutant.file, mutant.edits, text)
+
+
+def copied_bytes(source: Path) -> bytes:
+    """What the copy has in place of a file of the tree."""
+    name = source.relative_to(ROOT).as_posix()
+    if name in ONE_WIDTH:
+        return edited("one lane width", name, ONE_WIDTH[name], source.read_text()).encode()
+    return source.read_bytes()
 
 
 def copy_tree(tree: Path) -> None:
@@ -82,10 +111,11 @@ def copy_tree(tree: Path) -> None:
                 continue
             target = tree / source.relative_to(ROOT)
             wanted.add(target)
-            if target.exists() and filecmp.cmp(source, target, shallow=False):
+            content = copied_bytes(source)
+            if target.exists() and target.read_bytes() == content:
                 continue
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
+            target.write_bytes(content)
     for target in [p for p in tree.rglob("*") if p.is_file()]:
         if target not in wanted:
             target.unlink()

@@ -71,7 +71,7 @@ MUTANTS = [
     dict(
         name="cos_s without /cos_g",
         file="engine_cpp/path/gather.cpp",
-        edits=[("1.0f / max(abs(dot(q.wp, q.normal)), 1e-4f)", "1.0f")],
+        edits=[("stride / max(abs(dot(q.wp, q.normal)), 1e-4f)", "stride")],
         tests={EQUIVALENCE: "Equivalence.CoarseReceiver*"},
     ),
     dict(
@@ -79,8 +79,8 @@ MUTANTS = [
         file="engine_cpp/path/gather.cpp",
         edits=[
             (
-                "1.0f / max(abs(dot(q.wp, q.normal)), 1e-4f)",
-                "1.0f / max(abs(dot(q.wp, load3(chunk.lobe[0].normal, i))), 1e-4f)",
+                "stride / max(abs(dot(q.wp, q.normal)), 1e-4f)",
+                "stride / max(abs(dot(q.wp, load3(chunk.lobe[0].normal, i))), 1e-4f)",
             )
         ],
         tests={EQUIVALENCE: "Equivalence.CoarseReceiver*"},
