@@ -88,7 +88,7 @@ MUTANTS = [
     dict(
         name="shading normals not swapped",
         file="engine_cpp/path/bsdf_choice.h",
-        edits=[("value * (geometric * refraction_scale", "value * (refraction_scale")],
+        edits=[("value * (geometric * refraction_scale", "value * ((0.0f * geometric + 1.0f) * refraction_scale")],
         tests={EQUIVALENCE: "Equivalence.Coarse*Ball*"},
     ),
     dict(

@@ -46,6 +46,7 @@ inline CausticCase caustic_case(const std::string& name, SceneMaker& m) {
     scene::Settings& s = m.scene.settings;
     s.width = s.height = 24;
     s.caustic_roughness = 0.1f;
+    s.indirect_caustics = scene::IndirectCaustics::photons;  // photons make all they can
     CausticCase c;
     c.name = name;
     c.scene = m.scene;
@@ -81,7 +82,9 @@ inline CausticCase half_mirror_floor() {
     m.add(sphere({0, 0.7f, 0.9f}, 0.6f, 4, true), glass(1, 1.5f));
     m.area_lamp({0, -2, 2.5f}, {0, 1, 0.9f}, 2, 2, 5);
     m.perspective({0.3f, -2.5f, 1.6f}, {0, 0.8f, -0.1f}, 0.3f);
-    return caustic_case("half mirror floor", m);
+    CausticCase c = caustic_case("half mirror floor", m);
+    c.photon_samples *= 2;  // half of them do not gather
+    return c;
 }
 
 /// The lamp's way down leads through a pane; the ceiling that is seen has only what the floor throws back.

@@ -132,7 +132,7 @@ inline Agreement compare_pass(const Pictures& judge, const Pictures& tested, std
     if (scale == 0) scale = a.mean;
     const statistics::TResult t = statistics::welch_test(b, a);
     Agreement r;
-    r.ratio = b.mean / a.mean;
+    r.ratio = b.mean == a.mean ? 1 : b.mean / a.mean;
     r.half_width = t.half_width(0.02) / scale;
     r.agree = !t.rejected(k_alarm) && t.equivalent(bound * scale, 0.02);
     char line[200];

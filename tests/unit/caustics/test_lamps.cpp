@@ -10,7 +10,8 @@ using scene::IntegratorKind;
 
 struct Lamp {
     std::string name;
-    bool met = true;  ///< by camera paths
+    bool met = true;      ///< by camera paths
+    bool chosen = true;   ///< by light samples, else noisy
     SceneMaker scene;
 };
 
@@ -24,8 +25,9 @@ SceneMaker ball_on_a_floor() {
 
 template <class Add>
 Lamp lamp(const std::string& name, bool met, Add add) {
-    Lamp l{name, met, ball_on_a_floor()};
+    Lamp l{name, met, true, ball_on_a_floor()};
     add(l.scene);
+    for (const scene::MaterialDesc& material : l.scene.scene.materials) l.chosen &= material.sample_emission;
     return l;
 }
 
@@ -84,6 +86,7 @@ TEST(Lamps, EveryKindMakesItsCaustic) {
         CausticCase c = caustic_case(l.name, l.scene);
         c.bound = 0.03;
         c.path_samples *= 3;
+        if (!l.chosen) c.photon_samples *= 4;
         const scene::SceneDesc hybrid = with_photons(c, IntegratorKind::hybrid);
         const bool traced = l.met;
         const Pictures judge = traced ? pictures(path_traced(c), 1000)
