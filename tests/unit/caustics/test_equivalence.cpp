@@ -111,7 +111,7 @@ TEST(Variants, ShrinkingRadii) {
             scene::SceneDesc scene = with_photons(c, IntegratorKind::hybrid);
             scene.settings.radius_schedule = schedule;
             scene.settings.radius_shrink = shrink;
-            if (!memoryless) scene.settings.photons *= 3;  // one hit point a pass
+            if (!memoryless) scene.settings.photons *= 6;  // one hit point a pass
             expect_variant(c, scene, memoryless ? "memoryless" : shrink == 1 ? "per pixel, fixed" : "per pixel");
         }
     }
