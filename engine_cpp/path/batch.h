@@ -82,12 +82,16 @@ struct alignas(64) ShadowQueue {
     PathInts path, path_class;
 };
 
+/// Of scene-linear Rec.709.
+constexpr float luminance(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
+
 /// What a batch found, by path.
 struct alignas(64) BatchResult {
     int n = 0;
     PathFloats radiance[k_classes][3];
     PathFloats alpha;             ///< share of the camera ray that something stopped
     PathFloats depth, normal[3];  ///< at the first surface; depth 1e10 where there is none
+    PathFloats caustic_hits;      ///< luminance of C1 as if camera paths alone brought it; with photons only
     PathInts x, y, sample;        ///< pixel in the frame and number of the sample
 };
 

@@ -28,15 +28,21 @@ Float Tracer::caustic_share(Int ray, Float photon_density, Mask active) const {
     return select(brought, share, Float(1.0f));
 }
 
-void Tracer::deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit) {
+void Tracer::deposit(Int ray, Spectrum radiance, Float share, Mask active) {
     const path::RayState& rays = *now;
     const Vec3 tp = load3(rays.throughput, ray);
     Spectrum c = Spectrum{tp.x, tp.y, tp.z} * radiance;
     // Light found by a hit belongs to the bounce before it.
-    const Int bounce = byte_of(gather(rays.depth, ray), 0) - Int(emission_hit ? 1 : 0);
+    const Int bounce = byte_of(gather(rays.depth, ray), 0) - Int(1);
     c = clamp_contribution(c, bounce, scene.settings.clamp_direct, scene.settings.clamp_indirect);
-    const Int path = gather(rays.path, ray), state = state_of(gather(rays.flags, ray));
-    add_radiance(result, state, path, c, active);
+    const Int path_of = gather(rays.path, ray), state = state_of(gather(rays.flags, ray));
+    add_radiance(result, state, path_of, c * share, active);
+    if (!request.photons) return;
+    const Mask hits = active & (state == Int(static_cast<int>(path::State::caustic_hit)));
+    for (std::uint32_t b = bits(hits); b != 0; b &= b - 1) {
+        const int k = std::countr_zero(b);
+        result.caustic_hits[path_of[k]] += path::luminance(c.r[k], c.g[k], c.b[k]);
+    }
 }
 
 void Tracer::add_surface_emission(int material, const std::int32_t* list) {
@@ -63,15 +69,16 @@ void Tracer::add_surface_emission(int material, const std::int32_t* list) {
                                                  cardioid::CD_ISA_NS::load3(s.normal_geometric, i), weigh);
             weight = select(weigh, hit_weight(pdf, light_pdf), Float(1.0f));
         }
+        Float share = 1.0f;
         const Mask shared = shares_with_photons(ray, shines);
         if (any(shared)) {
             Int emitter;
             const Float density =
                 triangle_emission_density(*scene.lights, load(s.instance + i), load(s.triangle + i), emitter, shared);
             const Float choice = gather(request.photons->emitter_density, max(emitter, Int(0)));
-            weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
+            share = caustic_share(ray, density * choice, shared);
         }
-        deposit(ray, e * weight, shines, true);
+        deposit(ray, e * weight, share, shines);
     }
 }
 
@@ -102,14 +109,15 @@ void Tracer::add_lamp_hits() {
                 radiance *= shade_points(*this, nodes::Purpose::emission, Int(h.program), at, hit);
             }
             Float weight = hit_weight(pdf, h.pdf);
+            Float share = 1.0f;
             const Mask shared = shares_with_photons(ray, hit);
             if (any(shared)) {
                 const int id = scene.lights->hittable[which];
                 const Float density = lamp_emission_density(*scene.lights, id, from.p, d, shared);
                 const Float choice = request.photons->emitter_density[id];
-                weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
+                share = caustic_share(ray, density * choice, shared);
             }
-            deposit(ray, radiance * weight, hit, true);
+            deposit(ray, radiance * weight, share, hit);
         }
     }
 }
@@ -154,14 +162,15 @@ void Tracer::add_world(const std::int32_t* list, int n) {
             const LightReceiver from{load3(rays.origin, ray), load3(rays.from_normal, ray)};
             weight = select(weigh, hit_weight(pdf, pdf_environment(*scene.lights, from, d, weigh)), Float(1.0f));
         }
+        Float share = 1.0f;
         const Mask shared = shares_with_photons(ray, shines);
         if (any(shared)) {
             const int id = scene.lights->environment.emitter;
             const Float density = environment_emission_density(*scene.lights, load3(rays.origin, ray), d, shared);
             const Float choice = id >= 0 ? Float(request.photons->emitter_density[id]) : Float(0.0f);
-            weight *= select(shared, caustic_share(ray, density * choice, shared), Float(1.0f));
+            share = caustic_share(ray, density * choice, shared);
         }
-        deposit(ray, radiance * weight, shines, true);
+        deposit(ray, radiance * weight, share, shines);
     }
 }
 

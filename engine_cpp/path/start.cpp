@@ -64,6 +64,7 @@ void Tracer::start() {
             for (auto& channel : c) store(channel + i, Float(0.0f));
         }
         store(result.alpha + i, Float(1.0f));
+        store(result.caustic_hits + i, Float(0.0f));
         store(result.depth + i, Float(1e10f));
         store3(result.normal, i, {0.0f, 0.0f, 0.0f});
     }

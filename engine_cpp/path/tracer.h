@@ -49,8 +49,9 @@ struct Tracer : Walk {
     void add_lamp_hits();
     void add_world(const std::int32_t* rays, int n);
     void add_surface_emission(int material, const std::int32_t* rays);
-    /// Adds radiance × throughput of ray lanes to their paths, clamped as Cycles does.
-    void deposit(Int ray, Spectrum radiance, Mask active, bool emission_hit);
+    /// Adds radiance × throughput × share of ray lanes that hit light to their paths, clamped as Cycles does. `share`: what
+    /// photons leave of it.
+    void deposit(Int ray, Spectrum radiance, Float share, Mask active);
     /// Lanes whose hit is (in part) the photons' part: they ask for caustic_share.
     Mask shares_with_photons(Int ray, Mask active) const;
     /// Weight of a hit on light that photons of this density bring too (MIS; 0: they never bring it).

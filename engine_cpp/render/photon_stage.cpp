@@ -41,8 +41,6 @@ void in_parallel(void*, int n, void (*body)(void*, int), void* argument) {
     });
 }
 
-float luminance(const float (&c)[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
-
 /// Photons traced together end up next to each other, whatever thread traced them.
 std::vector<photon::Photon> concatenate(std::vector<std::vector<photon::Photon>> batches) {
     std::size_t total = 0;
@@ -60,6 +58,7 @@ std::vector<photon::Photon> concatenate(std::vector<std::vector<photon::Photon>>
 
 struct PhotonStage::Impl {
     const trace::SceneView& view;
+    std::unique_ptr<trace::SceneView> alone;  // after giving up
     film::Region region;
     path::TracePhotons kernel;
     path::Partition partition;
@@ -91,6 +90,8 @@ struct PhotonStage::Impl {
     void learn_guide();
     int count_samples() const;
     void balance(const Pass& pass, const path::Counters& work);
+    /// Camera paths take all classes from here on.
+    void give_up();
     std::vector<photon::Photon> trace(std::int64_t emitted, const std::function<PhotonWorker()>& worker,
                                       const std::atomic<bool>& stop);
 };
@@ -166,6 +167,7 @@ PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region&
 
 PhotonStage::~PhotonStage() = default;
 
+const trace::SceneView& PhotonStage::view() const { return impl_->alone ? *impl_->alone : impl_->view; }
 const path::Partition& PhotonStage::partition() const { return impl_->partition; }
 bool PhotonStage::active() const { return impl_->active; }
 bool PhotonStage::has_state() const { return !impl_->pixels.empty(); }
@@ -240,13 +242,31 @@ BalanceMeter* PhotonStage::meter(const Pass& pass) {
 
 void PhotonStage::Impl::balance(const Pass& p, const path::Counters& work) {
     if (!meter || p.number + 1 != k_training_passes) return;
-    // A photon that is evaluated costs about an eighth of a ray, one that is only found much less.
-    const double photon_cost = static_cast<double>(work.photon_rays) + static_cast<double>(work.evaluated) / 8 +
-                               static_cast<double>(work.gathered) / 64;
+    // In camera rays, measured on three scenes: photons scatter widely, are stored and sorted; a query costs even where it finds
+    // nothing.
+    const double photon_cost = 2.5 * static_cast<double>(work.photon_rays) + 0.7 * static_cast<double>(stats.stored) +
+                               static_cast<double>(work.evaluated) / 8 + static_cast<double>(work.gathered) / 64;
     const double camera_cost = static_cast<double>(work.rays) + static_cast<double>(work.shadow_rays);
-    const double wanted = static_cast<double>(per_sample) * meter->factor(camera_cost, photon_cost);
-    per_sample = static_cast<std::int64_t>(std::clamp(wanted, 1.0, k_most_photons / most_samples));
+    const double factor = meter->factor(camera_cost, 0.5 * static_cast<double>(work.gathers), photon_cost);
     meter.reset();
+    if (factor > 0) {
+        const double wanted = static_cast<double>(per_sample) * factor;
+        per_sample = static_cast<std::int64_t>(std::clamp(wanted, 1.0, k_most_photons / most_samples));
+    } else {
+        give_up();
+    }
+}
+
+void PhotonStage::Impl::give_up() {
+    active = false;
+    per_sample = 0;
+    partition = {};
+    map = {};
+    // As path tracing: only deltas are specular, and all else is connected to lamps.
+    alone = std::make_unique<trace::SceneView>(view);
+    alone->settings.caustic_roughness = 0;
+    const std::lock_guard lock(mutex);
+    stats.given_up = true;
 }
 
 void PhotonStage::learn(const Pass& pass, const path::Counters& work) {
@@ -272,7 +292,8 @@ void PhotonStage::Impl::learn_guide() {
         lesson.emitter = e.emitter;
         std::copy(std::begin(e.u), std::end(e.u), lesson.u);
         // The root: what is to be small is the sum of the pixels' variances, not of their means.
-        lesson.value = std::sqrt(static_cast<float>(times)) * std::fabs(luminance(q.flux)) * e.density;
+        lesson.value = std::sqrt(static_cast<float>(times)) *
+                       std::fabs(path::luminance(q.flux[0], q.flux[1], q.flux[2])) * e.density;
         lesson.density = e.density;
         lessons.push_back(lesson);
     }

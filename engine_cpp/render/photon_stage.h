@@ -25,6 +25,7 @@ struct PhotonWorker {
 struct PhotonStats {
     int passes = 0, skipped_passes = 0, training_passes = 0;
     std::int64_t emitted = 0, stored = 0;
+    bool given_up = false;        ///< camera paths alone do better: after the training passes no photon is traced
     std::int64_t per_sample = 0;  ///< emitted for each sample of the frame
     double trace_seconds = 0, index_seconds = 0, learn_seconds = 0;
     std::int64_t bytes = 0;  ///< most that photons, index and guide took
@@ -37,6 +38,8 @@ public:
     PhotonStage(const PhotonStage&) = delete;
     PhotonStage& operator=(const PhotonStage&) = delete;
 
+    /// The scene as camera paths are to see it: with the threshold of class S that goes with the partition.
+    const trace::SceneView& view() const;
     const path::Partition& partition() const;
     /// Photons are traced: something may be specular and something shines (or SPPM is chosen).
     bool active() const;

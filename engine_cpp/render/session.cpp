@@ -137,6 +137,7 @@ StatsJson Session::stats() const {
     j["photons"] = {{"passes", photons.passes},
                     {"skipped_passes", photons.skipped_passes},
                     {"training_passes", photons.training_passes},
+                    {"given_up", photons.given_up},
                     {"emitted", photons.emitted},
                     {"stored", photons.stored},
                     {"gathers", c.gathers},

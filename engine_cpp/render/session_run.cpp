@@ -137,13 +137,14 @@ path::Counters Session::Impl::work() const {
 
 void Session::Impl::measure(const path::BatchResult& r, int pass, BalanceMeter& meter) const {
     for (int i = 0; i < r.n; ++i) {
-        float sum[2] = {};
+        Halves path;
         for (int c = 0; c < path::k_classes; ++c) {
             const bool by_photons = (photons->partition().photons >> c & 1) != 0;
-            sum[by_photons] +=
-                0.2126f * r.radiance[c][0][i] + 0.7152f * r.radiance[c][1][i] + 0.0722f * r.radiance[c][2][i];
+            (by_photons ? path.photons : path.camera) +=
+                path::luminance(r.radiance[c][0][i], r.radiance[c][1][i], r.radiance[c][2][i]);
         }
-        meter.add(pass, r.x[i], r.y[i], sum[0], sum[1]);
+        path.hits = r.caustic_hits[i];
+        meter.add(pass, r.x[i], r.y[i], path);
     }
 }
 
@@ -159,7 +160,7 @@ void Session::Impl::render_tile(const film::Region& tile, const Pass& pass) {
     const FlushDenormals guard;
     Worker& worker = this->worker();
     path::BatchRequest request;
-    request.scene = &scene->view();
+    request.scene = &photons->view();
     request.filter_table = filter_table.data();
     request.x = tile.x;
     request.y = tile.y;
