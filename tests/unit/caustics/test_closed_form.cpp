@@ -144,7 +144,7 @@ TEST(ClosedForm, BrightnessDoesNotDependOnTheFocalLength) {
             // Radii follow the footprint, and few photons fall into a narrow view.
             const bool narrow = half_width < 0.2f;
             m.scene.settings.photon_radius = narrow ? 4 : 1.5f;
-            m.scene.settings.photons = narrow ? 20000 : 8000;
+            m.scene.settings.photons = narrow ? 32000 : 8000;
             expect_value(m.scene, 1, "Combined", 0.03, 3e-3);
         }
     }

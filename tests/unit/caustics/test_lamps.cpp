@@ -10,8 +10,8 @@ using scene::IntegratorKind;
 
 struct Lamp {
     std::string name;
-    bool met = true;      ///< by camera paths
-    bool chosen = true;   ///< by light samples, else noisy
+    bool met = true;     ///< by camera paths
+    bool chosen = true;  ///< by light samples, else noisy
     SceneMaker scene;
 };
 
