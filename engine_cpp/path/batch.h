@@ -121,7 +121,9 @@ struct Counters {
 struct PhotonPass {
     photon::PhotonMapView map;
     float emitted = 0;  ///< photons of the pass, stored or not
-    float radius = 2;   ///< of this pass, in footprints of a pixel
+    float per_path =
+        0;  ///< the same by camera paths of a pixel: all of them see the same photons, so these weigh against one path
+    float radius = 2;  ///< of this pass, in footprints of a pixel
     /// Per emitter: how dense its photons are, a factor of light/emit.h's densities (MIS of hits on lamps).
     const float* emitter_density = nullptr;
     std::atomic<std::uint32_t>* gathered = nullptr;  ///< counts gathers of each photon of the map; null: not wanted

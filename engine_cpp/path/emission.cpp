@@ -22,7 +22,7 @@ Mask Tracer::shares_with_photons(Int ray, Mask active) const {
 Float Tracer::caustic_share(Int ray, Float photon_density, Mask active) const {
     const Mask brought = active & (photon_density > Float(0.0f));
     const Mask c1 = state_of(gather(now->flags, ray)) == Int(static_cast<int>(path::State::caustic_hit));
-    const Float merge = gather(now->merge, ray), photons = photon_density * request.photons->emitted;
+    const Float merge = gather(now->merge, ray), photons = photon_density * request.photons->per_path;
     const Float blended = merge / max(merge + photons, 1e-37f);
     const Float share = select(c1 & mask_of(request.partition.blend_hits), blended, Float(0.0f));
     return select(brought, share, Float(1.0f));

@@ -130,7 +130,7 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
             // As RayState::merge of the camera path that goes the same way; hits of lamps take the other share.
             const Float projected = max(abs(dot(ng, q.wp)), 1e-6f);
             const Float merge = e.pdf * inv_p / (projected * k_pi * radius * radius);
-            const Float photons = q.density * pass.emitted;
+            const Float photons = q.density * pass.per_path;
             const Mask c1 = q.path_class == Int(static_cast<int>(path::PathClass::c1));
             weight = select(c1, weight * (photons / max(photons + merge, 1e-37f)), weight);
         }

@@ -206,6 +206,7 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
     s.pass = {};
     s.pass.map = s.map.view();
     s.pass.emitted = static_cast<float>(emitted);
+    s.pass.per_path = static_cast<float>(s.per_sample);
     s.pass.emitter_density = s.emitter_density.data();
     s.pass.radius = settings.photon_radius;
     const auto alpha = static_cast<double>(settings.radius_shrink);
