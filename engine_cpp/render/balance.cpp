@@ -18,6 +18,9 @@ constexpr double k_horizon = 64;
 /// Camera paths must have found the photons' light but for this share before photons are given up.
 constexpr double k_agreement = 0.05;
 
+/// Blur is no variance, and later samples are better stratified: photons must promise more than this to be kept.
+constexpr double k_doubt = 1.5;
+
 /// Variance of one sample at the horizon, from the differences of passes 0, 1 and of passes 2, 3.
 double effective_variance(double early, double late) {
     const double one = early / (1 / k_samples[0] + 1 / k_samples[1]);
@@ -85,7 +88,7 @@ double BalanceMeter::factor(double camera_cost, double gather_cost, double photo
     const double fixed = camera_cost + gather_cost;
     const double f = std::clamp(std::sqrt(v_photons * fixed / (v_camera * photon_cost)), k_least, k_most);
     const double with_photons = (v_camera + v_photons / f) * (fixed + f * photon_cost);
-    if (hits_find_everything() && (v_camera + v_hits) * camera_cost < with_photons) return 0;
+    if (hits_find_everything() && (v_camera + v_hits) * camera_cost < k_doubt * with_photons) return 0;
     return f;
 }
 
