@@ -210,8 +210,8 @@ def test_the_thesis_figures_agree_with_each_other():
 
 
 def guided_rows(gathered, error, cpu):
-    base = {"scene": "s", "cpu": 10.0, "relmse": 0.1, "relmse_C1": 0.1, "gathered_per_emitted": 0.1}
-    on = base | {"cpu": cpu, "relmse": error, "relmse_C1": error, "gathered_per_emitted": gathered}
+    base = {"scene": "s", "cpu": 10.0, "relmse_trim": 0.1, "relmse_C1_trim": 0.1, "gathered_per_emitted": 0.1}
+    on = base | {"cpu": cpu, "relmse_trim": error, "relmse_C1_trim": error, "gathered_per_emitted": gathered}
     return [
         base | {"photons": "half", "guided": "no"},
         base | {"photons": "auto", "guided": "no"},
@@ -223,10 +223,10 @@ def guided_rows(gathered, error, cpu):
 def test_guided_emission_is_judged_by_photons_and_by_time():
     good = guided.judge(guided_rows(1.0, 0.05, 12.0))
     assert "10.0 times" in good[0] and good[0].endswith(": met")
-    assert any("0.60 of the time" in line and line.endswith(": met") for line in good)
+    assert any("0.60 to the same relmse_trim" in line and line.endswith(": met") for line in good)
     slow = guided.judge(guided_rows(0.4, 0.1, 12.0))
     assert slow[0].endswith(": missed")
-    assert any("1.20 of the time" in line and line.endswith(": missed") for line in slow)
+    assert any("1.20 to the same relmse_trim" in line and line.endswith(": missed") for line in slow)
     assert "out of time" in guided.judge(guided_rows(1.0, 0.05, 12.0)[:2])[0]
 
 
