@@ -122,7 +122,10 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
         const Int index = select(lanes, load(lists.photon[at]), Int(0));
         const PhotonLanes q = photon_lanes(pass.map.photons, index);
         lanes &= camera_bounces + byte_of(q.depth, 0) <= Int(scene.settings.max_bounces);
-        lanes &= abs(dot(q.normal, ng)) > Float(k_least_cosine);
+        const Float turned = dot(q.normal, ng);
+        lanes &= abs(turned) > Float(k_least_cosine);
+        // A photon behind the surface must not shine through because its own facet is tilted.
+        lanes &= ~((turned > Float(0.0f)) ^ (dot(q.wp, ng) > Float(0.0f)));
         if (none(lanes)) continue;
         const GatherEval e = eval_d_lobes(scene, chunk, i, wo, ng, q, lanes);
         Float weight = stride / max(abs(dot(q.wp, q.normal)), 1e-4f);
