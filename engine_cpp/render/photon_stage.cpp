@@ -147,10 +147,11 @@ PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region&
     // Nothing that photons could bring: camera paths keep all that they find.
     if (!s.active && settings.integrator != scene::IntegratorKind::photon_mapping) s.partition = {};
     if (!s.active) return;
-    s.per_sample = settings.photons > 0
-                       ? settings.photons
-                       : std::max<std::int64_t>(
-                             static_cast<std::int64_t>(k_photons_per_path * settings.width * settings.height), 1);
+    // In photon mapping nearly all light is the photons': nothing is to be balanced, and one a path served it best.
+    const bool all_by_photons = settings.integrator == scene::IntegratorKind::photon_mapping;
+    const double per_path = all_by_photons ? 1 : k_photons_per_path;
+    const auto automatic = static_cast<std::int64_t>(per_path * settings.width * settings.height);
+    s.per_sample = settings.photons > 0 ? settings.photons : std::max<std::int64_t>(automatic, 1);
     s.start_power = emission_power(*s.view.lights);
     double sum = 0;
     for (const float p : s.start_power) sum += static_cast<double>(p);
@@ -159,7 +160,7 @@ PhotonStage::PhotonStage(const trace::TraceableScene& scene, const film::Region&
     s.learn_densities();
     if (settings.radius_schedule == scene::RadiusSchedule::per_pixel)
         s.pixels.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
-    else if (settings.photons == 0)
+    else if (settings.photons == 0 && !all_by_photons)
         s.meter = std::make_unique<BalanceMeter>(region);
     s.most_samples = s.count_samples();
     s.stats.per_sample = s.per_sample;
