@@ -105,7 +105,8 @@ TEST(Classes, TheThresholdDoesNotChangeHighlights) {
     SceneMaker specular = m;
     specular.scene.settings.integrator = scene::IntegratorKind::hybrid;
     specular.scene.settings.caustic_roughness = 0.4f;
-    specular.scene.settings.photons = 500;  // where the number is open, photons are given up here, and the threshold with them
+    specular.scene.settings.photons =
+        500;  // where the number is open, photons are given up here, and the threshold with them
     expect_same(m.scene, specular.scene, 0.02);
     const auto f = render_frame(specular.scene);
     EXPECT_EQ(mean_of(*f, "D2"), 0);
