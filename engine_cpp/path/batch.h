@@ -100,7 +100,7 @@ struct Counters {
     std::uint64_t camera_paths = 0, rays = 0, shadow_rays = 0, vertices = 0, light_samples = 0, lobes_dropped = 0;
     std::uint64_t gathers = 0, gathered = 0,
                   evaluated = 0;  ///< hit points; photons that they found; those that were evaluated
-    std::uint64_t photons = 0, photon_rays = 0, photons_dropped = 0;  ///< emitted; dropped: flux that was not finite
+    std::uint64_t photon_rays = 0, photons_dropped = 0;  ///< dropped: flux that was not finite
     void add(const Counters& o) {
         camera_paths += o.camera_paths;
         rays += o.rays;
@@ -111,7 +111,6 @@ struct Counters {
         gathers += o.gathers;
         gathered += o.gathered;
         evaluated += o.evaluated;
-        photons += o.photons;
         photon_rays += o.photon_rays;
         photons_dropped += o.photons_dropped;
     }

@@ -13,10 +13,9 @@ struct Choice {
     Spectrum f{0.0f};
     Float pdf = 0.0f;
     Mask valid, delta, transmitted, diffuse, specular, through;
-    Mask took_d;              ///< a D lobe was chosen, whether or not it gave a direction
-    Float probability_d = 0;  ///< of choosing a D lobe
-    Float blur = 0.0f;        ///< how far the lobe widens the pixel's cone
-    Float alpha = 1.0f;       ///< of a glossy lobe
+    Mask took_d;         ///< a D lobe was chosen, whether or not it gave a direction
+    Float blur = 0.0f;   ///< how far the lobe widens the pixel's cone
+    Float alpha = 1.0f;  ///< of a glossy lobe
     Int lobe;
 };
 
@@ -24,30 +23,29 @@ struct Choice {
 enum class Transport : bool { radiance, flux };
 
 /// Light that a lobe refracts is scaled by 1/eta², either where radiance is carried or where flux is (spec 1, adjoints).
-inline Float refraction_scale(const bsdf::Lobe& lobe, int i, Mask transmitted, bool scaled) {
+inline Float refraction_scale(const bsdf::Lobe& lobe, int i, Vec3 wi, Vec3 ng, bool scaled) {
     if (!scaled || bsdf::is_diffuse_kind(lobe.kind) || lobe.kind == bsdf::LobeKind::ggx_reflection) return 1.0f;
     const Float eta = load(lobe.eta + i);
-    return select(transmitted, 1.0f / (eta * eta), Float(1.0f));
+    return select(dot(wi, ng) < Float(0.0f), 1.0f / (eta * eta), Float(1.0f));
 }
 
 /// Value of a lobe in direction wi for what is carried, f·|cos| with the factors that belong to it.
 /// Flux: the lobe seen from the other end, f(wi → wo)·|cos_s(wo)|·|cos_g(wi)| / |cos_g(wo)| (Veach 1997, 5.3).
 inline Spectrum carried_value(const path::VertexChunk& chunk, const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng,
                               Spectrum f_cos, Mask delta, Transport transport, bool physical) {
-    const Mask transmitted = (dot(wo, ng) < Float(0.0f)) ^ (dot(wi, ng) < Float(0.0f));
     const bool bends = chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind);
     if (transport == Transport::radiance) {
         if (bends) f_cos = f_cos * bump_shadow(chunk, lobe, i, wi);
-        return f_cos * refraction_scale(lobe, i, transmitted, physical);
+        return f_cos * refraction_scale(lobe, i, wi, ng, physical);
     }
     const Vec3 n = load3(lobe.normal, i);
     const Float geometric = abs(dot(ng, wi)) / max(abs(dot(ng, wo)), 1e-6f);
     const Float turned = abs(dot(n, wo)) / max(abs(dot(n, wi)), 1e-6f);
-    const Mask swap = ~delta & ~transmitted;
+    const Mask swap = ~delta & (dot(wi, ng) >= Float(0.0f));
     Spectrum value = f_cos * turned;
     if (any(swap)) value = select(swap, eval_lobe(lobe, i, wi, wo, ng).f_cos, value);
     if (bends) value = value * bump_shadow(chunk, lobe, i, wo);
-    return value * (geometric * refraction_scale(lobe, i, transmitted, !physical));
+    return value * (geometric * refraction_scale(lobe, i, wi, ng, !physical));
 }
 
 /// Chooses a lobe by its albedo (or the way straight through) with u.x and samples it with what is left of u.x and u.y: each
@@ -66,10 +64,9 @@ inline Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparen
         const Float p = load(chunk.pick[k] + i);
         const Mask here = active & (u.x >= sum) & (u.x < sum + p);
         const Float rest = clamp((u.x - sum) / max(p, 1e-30f), 0.0f, 0.99999994f);
-        const Mask specular = is_specular(lobe, i, caustic_roughness);
         sum += p;
-        c.probability_d += select(specular, Float(0.0f), p);
         if (none(here)) continue;
+        const Mask specular = is_specular(lobe, i, caustic_roughness);
         const LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
         const Spectrum f = carried_value(chunk, lobe, i, wo, s.wi, ng, s.f_cos, s.delta, transport, physical);
         const Mask ok = here & s.valid;

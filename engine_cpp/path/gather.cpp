@@ -98,7 +98,12 @@ Float Tracer::mark_gather(path::VertexChunk& chunk, int i, const Choice& c, Mask
         const Int path = select(here, load(chunk.path + i), Int(0));
         gathers &= cardioid::CD_ISA_NS::gather(result.sample, path) == Int(request.photons->sample);
     }
-    const Float inv_p = 1.0f / max(c.probability_d, 1e-20f);
+    Float probability_d = 0.0f;
+    for (int k = 0; k < chunk.lobes; ++k) {
+        const Mask specular = is_specular(chunk.lobe[k], i, scene.settings.caustic_roughness);
+        probability_d += select(specular, Float(0.0f), load(chunk.pick[k] + i));
+    }
+    const Float inv_p = 1.0f / max(probability_d, 1e-20f);
     const Float radius = gather_radius(chunk, i, footprint, here);
     store(chunk.gather + i, select(gathers, inv_p, Float(0.0f)));
     store(chunk.radius + i, radius);

@@ -6,7 +6,6 @@ namespace cardioid::CD_ISA_NS {
 void Walk::find_hits(bool coherent, int visibility, bool bounded) {
     path::RayState& rays = *now;
     path::HitState& hits = scratch.hits;
-    scratch.counters.rays += static_cast<std::uint64_t>(rays.n);
     const Int missed(scene.material_count);
     for (int i = 0; i < rays.n; i += W) {
         const Mask active = first_lanes(rays.n - i);

@@ -66,16 +66,12 @@ void set_footprint(const trace::CameraView& camera, nodes::ShadingChunk& s) {
     }
 }
 
-/// Lobe kind's visibility bit for what the photon came from.
-Mask sees_origin(const path::VertexChunk& chunk, int i, const Choice& c, Int seen_by, Vec3 wo, Vec3 ng) {
+/// Lanes whose lobe sees what the photon came from.
+Mask sees_origin(const path::VertexChunk& chunk, const Choice& c, Int seen_by, Vec3 ng) {
     Mask seen = mask_of(true);
     for (int k = 0; k < chunk.lobes; ++k) {
-        const Mask through = ((dot(wo, ng) < Float(0.0f)) ^ (dot(c.wi, ng) < Float(0.0f)));
-        const bool diffuse = bsdf::is_diffuse_kind(chunk.lobe[k].kind);
-        const Int bit = select(through, Int(scene::visible_transmission),
-                               Int(diffuse ? scene::visible_diffuse : scene::visible_glossy));
+        const Int bit = lobe_visibility(chunk.lobe[k].kind, c.wi, ng);
         seen = select(c.lobe == Int(k), (bit & seen_by) != Int(0), seen);
-        (void)i;
     }
     return seen;
 }
@@ -164,7 +160,7 @@ void PhotonWalk::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Int next_state = step_photon(state, c.specular);
         c.valid &= may_be_stored(next_state, request.classes);
         const Int seen_by = (flags >> path::k_visibility_shift) & Int(0xff);
-        if (scene.is_limited) c.valid &= sees_origin(chunk, i, c, seen_by, wo, ng);
+        if (scene.is_limited) c.valid &= sees_origin(chunk, c, seen_by, ng);
         // The vertex next to the light does not count by type, as on camera paths.
         const Mask first = state == Int(static_cast<int>(path::PhotonState::start));
         const Int next_depth = select(first, depth + Int(1), count_bounce(depth, c));

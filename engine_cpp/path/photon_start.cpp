@@ -14,12 +14,12 @@ struct EmissionLanes {
     Float density;
 };
 
-EmissionLanes draw_emissions(const photon::PhotonGuide& guide, Float choice, Vec2 point, Vec2 direction) {
+EmissionLanes draw_emissions(const photon::PhotonGuide& guide, const BirthNumbers& n) {
     alignas(64) std::int32_t emitter[W];
     alignas(64) float u[photon::k_cube][W], density[W];
     for (int k = 0; k < W; ++k) {
-        const float place[photon::k_cube] = {point.x[k], point.y[k], direction.x[k], direction.y[k]};
-        const photon::Emission e = guide.draw(choice[k], place);
+        const float place[photon::k_cube] = {n.point.x[k], n.point.y[k], n.direction.x[k], n.direction.y[k]};
+        const photon::Emission e = guide.draw(n.choice[k], place);
         emitter[k] = e.emitter;
         density[k] = e.density;
         for (int d = 0; d < photon::k_cube; ++d) u[d][k] = e.u[d];
@@ -32,17 +32,13 @@ EmissionLanes draw_emissions(const photon::PhotonGuide& guide, Float choice, Vec
 void PhotonWalk::start() {
     path::RayState& rays = *now;
     rays.n = 0;
-    scratch.counters.photons += static_cast<std::uint64_t>(request.count);
-    const Int seed = hash(Int::of_bits(request.seed));
     for (int i = 0; i < request.count; i += W) {
         const Mask lanes = first_lanes(request.count - i);
         const Int number = Int::of_bits(request.first) + Int(i) + lane_index();
-        const Int index = reverse_bits(number);
-        store(scratch.pixel_seed + i, seed);
-        store(scratch.sample_index + i, index);
-        const EmissionLanes e = draw_emissions(*request.guide, sample_pair(seed, index, Int(pair_choice)).x,
-                                               sample_pair(seed, index, Int(pair_emission_point)),
-                                               sample_pair(seed, index, Int(pair_emission_direction)));
+        const BirthNumbers numbers = birth_numbers(request.seed, number);
+        store(scratch.pixel_seed + i, numbers.seed);
+        store(scratch.sample_index + i, numbers.index);
+        const EmissionLanes e = draw_emissions(*request.guide, numbers);
         const PhotonRay r = emit_photon(*scene.lights, e.emitter, e.u_point, e.u_direction, lanes);
         Mask go = lanes & r.valid & (e.density > Float(0.0f));
         Spectrum flux = r.flux * (1.0f / max(e.density, 1e-37f));

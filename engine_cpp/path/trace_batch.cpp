@@ -4,13 +4,6 @@
 
 namespace cardioid::CD_ISA_NS {
 
-namespace {
-
-/// More events than any setting allows: transparent surfaces and bounces together.
-constexpr int k_max_events = 1024;
-
-}  // namespace
-
 void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path::BatchResult& result) {
     Tracer tracer{{*request.scene, scratch, &scratch.rays[0], &scratch.rays[1]}, request, result};
     scratch.arena.reset();
@@ -20,6 +13,7 @@ void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path
     tracer.start();
     for (int event = 0; event < k_max_events && tracer.now->n > 0; ++event) {
         if (scratch.cancelled && scratch.cancelled->load(std::memory_order_relaxed)) return;
+        scratch.counters.rays += static_cast<std::uint64_t>(tracer.now->n);
         tracer.find_hits(event == 0, 0, event == 0);
         tracer.add_lamp_hits();
         tracer.sort_by_material();

@@ -5,7 +5,6 @@
 namespace cardioid::CD_ISA_NS {
 
 namespace {
-constexpr int k_max_events = 1024;
 /// Whatever some lobe may see; which one does is tested at the far end of the segment.
 constexpr int k_seen_by_lobes = scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission;
 }  // namespace
@@ -13,7 +12,6 @@ constexpr int k_seen_by_lobes = scene::visible_diffuse | scene::visible_glossy |
 int trace_photons(const path::PhotonRequest& request, path::Scratch& scratch) {
     PhotonWalk walk{{*request.scene, scratch, &scratch.rays[0], &scratch.rays[1]}, request};
     walk.start();
-    const std::uint64_t camera_rays = scratch.counters.rays;
     for (int event = 0; event < k_max_events && walk.now->n > 0; ++event) {
         if (scratch.cancelled && scratch.cancelled->load(std::memory_order_relaxed)) break;
         scratch.counters.photon_rays += static_cast<std::uint64_t>(walk.now->n);
@@ -26,7 +24,6 @@ int trace_photons(const path::PhotonRequest& request, path::Scratch& scratch) {
         });
         walk.swap_rays();
     }
-    scratch.counters.rays = camera_rays;
     return walk.stored;
 }
 

@@ -11,6 +11,9 @@
 
 namespace cardioid::CD_ISA_NS {
 
+/// More events of a path than any setting allows: transparent surfaces and bounces together.
+inline constexpr int k_max_events = 1024;
+
 struct Walk {
     const trace::SceneView& scene;
     path::Scratch& scratch;

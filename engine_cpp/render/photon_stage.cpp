@@ -4,20 +4,18 @@
 #include "light/light_data.h"
 #include "path/dimensions.h"
 #include "photon/guide.h"
+#include "render/clock.h"
 #include "simd/denormals.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 
 namespace cardioid::render {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Photons of a pass are kept to about this many by making passes small.
 constexpr double k_most_photons = 2e6;
@@ -26,8 +24,6 @@ constexpr double k_photons_per_path = 0.5;
 
 /// For lamps that camera paths never find: photons are everything. Finite, so that weights stay numbers.
 constexpr float k_never_hit = 1e20f;
-
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 std::vector<float> emission_power(const light::LightData& lights) {
     return {lights.emission_power, lights.emission_power + lights.emitter_count};
@@ -98,11 +94,9 @@ struct PhotonStage::Impl {
 
 photon::Emission PhotonStage::Impl::emission(std::uint32_t number) const {
     using namespace CD_ISA_NS;
-    const Int seed = hash(Int::of_bits(pass_seed)), index = reverse_bits(Int::of_bits(number));
-    const Vec2 point = sample_pair(seed, index, Int(pair_emission_point));
-    const Vec2 direction = sample_pair(seed, index, Int(pair_emission_direction));
-    const float u[photon::k_cube] = {point.x[0], point.y[0], direction.x[0], direction.y[0]};
-    return guide.draw(sample_pair(seed, index, Int(pair_choice)).x[0], u);
+    const BirthNumbers n = birth_numbers(pass_seed, Int::of_bits(number));
+    const float u[photon::k_cube] = {n.point.x[0], n.point.y[0], n.direction.x[0], n.direction.y[0]};
+    return guide.draw(n.choice[0], u);
 }
 
 void PhotonStage::Impl::learn_densities() {

@@ -5,6 +5,7 @@
 #include "film/film.h"
 #include "film/pixel_filter.h"
 #include "path/batch.h"
+#include "render/clock.h"
 #include "render/photon_stage.h"
 #include "render/session.h"
 #include "trace/traceable_scene.h"
@@ -12,16 +13,11 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 namespace cardioid::render {
-
-using Clock = std::chrono::steady_clock;
-
-inline double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 /// User + system seconds of this process.
 double cpu_seconds();

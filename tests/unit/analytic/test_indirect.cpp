@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light after several bounces: spheres seen from inside, plates that face each other, furnaces, mirrors, slabs of glass.
+#include "analytic/closed_forms.h"
 #include "analytic/replicates.h"
 #include "analytic/scenes.h"
 
@@ -174,18 +175,6 @@ TEST(AnalyticIndirect, MirrorsInARow) {
     m.add(quad({2.5f, 0, 0.5f}, {0, 2, 0}, {0, 0, 1}), emission(2));
     m.probe({-0.5f, 0, 0.5f}, {0, 0, 0});
     expect_value(m.scene, 2 * 0.9 * 0.7 * 0.9, "D1", 0.02, 1e-4);
-}
-
-double fresnel(double cos_i, double ior) {
-    const double cos_t = std::sqrt(1 - (1 - cos_i * cos_i) / (ior * ior));
-    const double s = (cos_i - ior * cos_t) / (cos_i + ior * cos_t), p = (cos_t - ior * cos_i) / (cos_t + ior * cos_i);
-    return 0.5 * (s * s + p * p);
-}
-
-/// What a slab lets through, with all reflections inside.
-double slab_transmittance(double cos_i, double ior) {
-    const double r = fresnel(cos_i, ior);
-    return (1 - r) / (1 + r);
 }
 
 /// Mean of T(θ) cos θ over the disk of a sun whose middle has the cosine `cos_middle`; irradiance 1 across the light.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Caustics whose brightness is known: lamps that no camera path can meet, furnaces, scenes at other sizes.
+#include "analytic/closed_forms.h"
 #include "caustics/compare.h"
 
 namespace cardioid::test {
@@ -21,18 +22,6 @@ void use_photons(SceneMaker& m, IntegratorKind kind, int samples, std::int64_t p
     s.photon_radius = 0.5f;
     s.radius_shrink = 1;
     s.width = s.height = 16;
-}
-
-double fresnel(double cos_i, double ior) {
-    const double cos_t = std::sqrt(1 - (1 - cos_i * cos_i) / (ior * ior));
-    const double s = (cos_i - ior * cos_t) / (cos_i + ior * cos_t), p = (cos_t - ior * cos_i) / (cos_t + ior * cos_i);
-    return 0.5 * (s * s + p * p);
-}
-
-/// What a slab lets through, with all reflections inside.
-double slab_transmittance(double cos_i, double ior) {
-    const double r = fresnel(cos_i, ior);
-    return (1 - r) / (1 + r);
 }
 
 /// What a slab throws back of light from all sides.
