@@ -65,7 +65,7 @@ MUTANTS = [
     dict(
         name="gather without 1/P(D)",
         file="engine_cpp/path/gather.cpp",
-        edits=[("const Float inv_p = 1.0f / max(c.probability_d, 1e-20f);", "const Float inv_p = 1.0f;")],
+        edits=[("const Float inv_p = 1.0f / max(probability_d, 1e-20f);", "const Float inv_p = 1.0f + 0.0f * probability_d;")],
         tests={EQUIVALENCE: "Equivalence.HalfMirrorFloor*"},
     ),
     dict(
@@ -94,13 +94,13 @@ MUTANTS = [
     dict(
         name="eta² on no side",
         file="engine_cpp/path/bsdf_choice.h",
-        edits=[("refraction_scale(lobe, i, transmitted, !physical)", "refraction_scale(lobe, i, transmitted, false)")],
+        edits=[("refraction_scale(lobe, i, wi, ng, !physical)", "refraction_scale(lobe, i, wi, ng, false)")],
         tests={EQUIVALENCE: "Equivalence.UnderWater*"},
     ),
     dict(
         name="eta² on both sides",
         file="engine_cpp/path/bsdf_choice.h",
-        edits=[("refraction_scale(lobe, i, transmitted, !physical)", "refraction_scale(lobe, i, transmitted, true)")],
+        edits=[("refraction_scale(lobe, i, wi, ng, !physical)", "refraction_scale(lobe, i, wi, ng, true)")],
         tests={EQUIVALENCE: "Equivalence.UnderWater*"},
     ),
     dict(
