@@ -65,7 +65,12 @@ MUTANTS = [
     dict(
         name="gather without 1/P(D)",
         file="engine_cpp/path/gather.cpp",
-        edits=[("const Float inv_p = 1.0f / max(probability_d, 1e-20f);", "const Float inv_p = 1.0f + 0.0f * probability_d;")],
+        edits=[
+            (
+                "const Float inv_p = 1.0f / max(probability_d, 1e-20f);",
+                "const Float inv_p = 1.0f + 0.0f * probability_d;",
+            )
+        ],
         tests={EQUIVALENCE: "Equivalence.HalfMirrorFloor*"},
     ),
     dict(
