@@ -9,7 +9,22 @@ namespace cardioid::film {
 namespace {
 constexpr const char* k_class_names[k_classes] = {"D1", "D2", "D3", "C1", "C2"};
 
-enum PassIndex : int { pass_combined, pass_depth, pass_normal, pass_classes };
+enum PassIndex : int { pass_combined, pass_depth, pass_normal, pass_classes, pass_raw = pass_classes + k_classes };
+
+void accumulate(float (&sum)[3], const float (&value)[3]) {
+    for (int k = 0; k < 3; ++k) sum[k] += value[k];
+}
+
+float total(const float (&c)[3]) { return c[0] + c[1] + c[2]; }
+
+/// Finite exactly where every value of the sample is (or they cancel out, which finite values of such a size cannot matter for).
+float checksum(const Sample& s) {
+    float sum = s.alpha + s.depth + total(s.normal) + total(s.unfiltered) + total(s.detail) + total(s.feature_normal) +
+                s.feature_depth + s.feature_depth_squared;
+    for (const auto& c : s.radiance) sum += total(c);
+    for (const LayerSample& l : s.layers) sum += total(l.radiance) + total(l.incident);
+    return sum;
+}
 }  // namespace
 
 Region crop_region(const scene::Settings& s) {
@@ -30,21 +45,85 @@ Film::Film(const scene::Settings& settings)
     : region_(crop_region(settings)),
       exposure_(settings.exposure),
       transparent_(settings.transparent_film),
-      pixels_(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height)) {}
+      filter_(settings.filter),
+      pixels_(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height)),
+      odd_(settings.adaptive_threshold > 0 ? pixels_.size() : 0) {
+    if (settings.record_clusters || settings.filter.use_filter) clusters_ = ClusterStore(region_.width, region_.height);
+}
 
-bool Film::add(int x, int y, const Sample& sample, bool first) {
-    float sum = sample.alpha + sample.depth + sample.normal[0] + sample.normal[1] + sample.normal[2];
-    for (const auto& c : sample.radiance) sum += c[0] + c[1] + c[2];
-    if (!std::isfinite(sum)) return false;
-    Pixel& p = pixels_[static_cast<std::size_t>(y - region_.y) * region_.width + (x - region_.x)];
-    for (int c = 0; c < k_classes; ++c) {
-        for (int k = 0; k < 3; ++k) p.radiance[c][k] += sample.radiance[c][k];
-    }
+bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
+    if (!std::isfinite(checksum(sample))) return false;
+    x -= film_->region_.x;
+    y -= film_->region_.y;
+    const std::size_t i = static_cast<std::size_t>(y) * film_->region_.width + static_cast<std::size_t>(x);
+    Film::Pixel& p = film_->pixels_[i];
+    for (int c = 0; c < k_classes; ++c) accumulate(p.radiance[c], sample.radiance[c]);
+    accumulate(p.unfiltered, sample.unfiltered);
     p.alpha += sample.alpha;
     if (first) p.depth = sample.depth;
-    for (int k = 0; k < 3; ++k) p.normal[k] += sample.normal[k];
+    accumulate(p.normal, sample.normal);
+    if (film_->has_clusters()) {
+        accumulate(p.detail, sample.detail);
+        accumulate(p.feature_normal, sample.feature_normal);
+        p.feature_depth += sample.feature_depth;
+        p.feature_depth_squared += sample.feature_depth_squared;
+        editor_.open(film_->clusters_, x, y);
+        for (int l = 0; l < k_layers; ++l) {
+            const bool kept = editor_.add(x, y, l, sample.layers[l], p.samples);
+            // Light of negative lamps has no place among clusters: it stays as it is.
+            if (!kept) accumulate(p.unfiltered, sample.layers[l].radiance);
+        }
+    }
+    if (!film_->odd_.empty() && (p.samples & 1) != 0) {
+        for (const auto& c : sample.radiance) accumulate(film_->odd_[i].rgb, c);
+    }
     ++p.samples;
     return true;
+}
+
+void FilmWriter::close() { editor_.close(); }
+
+PixelFeatures Film::features(int x, int y) const {
+    const Pixel& p = pixel(x, y);
+    PixelFeatures f;
+    if (p.samples == 0) return f;
+    const float inv = 1.0f / static_cast<float>(p.samples);
+    for (int k = 0; k < 3; ++k) f.detail[k] = p.detail[k] * inv;
+    const float weight = luminance(p.detail);
+    if (weight <= 0) return f;
+    for (int k = 0; k < 3; ++k) f.normal[k] = p.feature_normal[k] / weight;
+    f.depth = p.feature_depth / weight;
+    f.depth_variance = std::max(0.0f, p.feature_depth_squared / weight - f.depth * f.depth);
+    return f;
+}
+
+void Film::unfiltered(int x, int y, float (&rgb)[3]) const {
+    const Pixel& p = pixel(x, y);
+    const float inv = p.samples > 0 ? 1.0f / static_cast<float>(p.samples) : 0.0f;
+    for (int k = 0; k < 3; ++k) rgb[k] = p.unfiltered[k] * inv;
+    if (photons_.empty()) return;
+    const std::size_t i = static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x);
+    for (const auto& c : photons_[i].classes) accumulate(rgb, c);
+}
+
+void Film::set_photons(int x, int y, const float (&classes)[k_classes - 1][3]) {
+    if (photons_.empty()) photons_.resize(pixels_.size());
+    auto& to = photons_[static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x)].classes;
+    for (int c = 0; c < k_classes - 1; ++c) std::copy_n(classes[c], 3, to[c]);
+}
+
+float Film::noise(int x, int y) const {
+    const std::size_t i = static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x);
+    const Pixel& p = pixels_[i];
+    const auto odd = static_cast<float>(p.samples / 2), all = static_cast<float>(p.samples);
+    float difference = 0, brightness = 0;
+    for (int k = 0; k < 3; ++k) {
+        float sum = 0;
+        for (const auto& c : p.radiance) sum += c[k];
+        difference += std::abs(sum / all - odd_[i].rgb[k] / odd);
+        brightness += sum / all;
+    }
+    return difference / std::sqrt(std::max(brightness, 1e-8f));
 }
 
 Frame Film::make_frame() const {
@@ -56,10 +135,14 @@ Frame Film::make_frame() const {
     f.passes.push_back({"Depth", 1, std::vector<float>(n, 1e10f)});
     f.passes.push_back({"Normal", 3, std::vector<float>(3 * n, 0.0f)});
     for (const char* name : k_class_names) f.passes.push_back({name, 3, std::vector<float>(3 * n, 0.0f)});
+    if (has_clusters()) {
+        for (const char* name : {"Raw", "Filtered", "Withheld"})
+            f.passes.push_back({name, 3, std::vector<float>(3 * n, 0.0f)});
+    }
     return f;
 }
 
-void Film::resolve(const Region& part, Frame& frame) const {
+void Film::resolve(const Region& part, Frame& frame, bool keep_combined) const {
     for (int y = part.y; y < part.y + part.height; ++y) {
         for (int x = part.x; x < part.x + part.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y - region_.y) * region_.width + (x - region_.x);
@@ -71,17 +154,26 @@ void Film::resolve(const Region& part, Frame& frame) const {
             for (int k = 0; k < 3; ++k) {
                 float sum = 0;
                 for (int c = 0; c < k_classes; ++c) {
-                    const float mean = p.radiance[c][k] * inv * exposure_;
+                    float mean = p.radiance[c][k] * inv;
+                    if (!photons_.empty() && c > 0) mean += photons_[i].classes[c - 1][k];
+                    mean *= exposure_;
                     frame.passes[pass_classes + c].data[3 * i + k] = mean;
                     sum += mean;
                 }
-                combined[k] = sum;
+                if (!keep_combined) combined[k] = sum;
+                if (has_clusters()) frame.passes[pass_raw].data[3 * i + k] = sum;
                 frame.passes[pass_normal].data[3 * i + k] = p.normal[k] * inv;
             }
             combined[3] = transparent_ ? std::clamp(p.alpha * inv, 0.0f, 1.0f) : 1.0f;
             frame.passes[pass_depth].data[i] = p.depth;
         }
     }
+}
+
+std::int64_t Film::memory_bytes() const {
+    return static_cast<std::int64_t>(pixels_.size() * sizeof(Pixel) + odd_.size() * sizeof(Rgb) +
+                                     photons_.size() * sizeof(PhotonMeans)) +
+           clusters_.memory_bytes();
 }
 
 }  // namespace cardioid::film

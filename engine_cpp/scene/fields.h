@@ -55,6 +55,10 @@ struct EnumNames<IndirectCaustics> {
     static constexpr std::string_view names[] = {"photons", "path_tracing", "off"};
 };
 template <>
+struct EnumNames<FilterMethod> {
+    static constexpr std::string_view names[] = {"none", "clusters", "thesis", "cross_bilateral"};
+};
+template <>
 struct EnumNames<RadiusSchedule> {
     static constexpr std::string_view names[] = {"memoryless", "per_pixel"};
 };
@@ -173,6 +177,14 @@ void fields(V& v, Of<CameraDesc> auto& d) {
 }
 
 template <class V>
+void fields(V& v, Of<FilterSettings> auto& d) {
+    v("use_filter", d.use_filter), v("filter_method", d.filter_method), v("firefly_density", d.firefly_density);
+    v("luminance_sensitivity", d.luminance_sensitivity), v("filter_size", d.filter_size);
+    v("filter_direct", d.filter_direct), v("filter_indirect", d.filter_indirect), v("filter_deep", d.filter_deep);
+    v("texture_width", d.texture_width);
+}
+
+template <class V>
 void fields(V& v, Of<Settings> auto& d) {
     v("integrator", d.integrator), v("width", d.width), v("height", d.height), v("crop", d.crop);
     v("samples", d.samples), v("first_sample", d.first_sample), v("time_limit", d.time_limit), v("threads", d.threads);
@@ -185,6 +197,9 @@ void fields(V& v, Of<Settings> auto& d) {
     v("photons", d.photons), v("photon_radius", d.photon_radius), v("radius_shrink", d.radius_shrink);
     v("radius_schedule", d.radius_schedule), v("guided_emission", d.guided_emission);
     v("blend_caustic_hits", d.blend_caustic_hits), v("physical_refraction", d.physical_refraction);
+    v("adaptive_threshold", d.adaptive_threshold), v("adaptive_min_samples", d.adaptive_min_samples);
+    v("record_clusters", d.record_clusters);
+    fields(v, d.filter);
     v("pixel_filter", d.pixel_filter), v("filter_width", d.filter_width);
     v("exposure", d.exposure), v("transparent_film", d.transparent_film), v("transparent_glass", d.transparent_glass);
     v("transparent_roughness", d.transparent_roughness), v("robust_intersection", d.robust_intersection);

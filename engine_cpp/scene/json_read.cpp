@@ -261,6 +261,7 @@ template LightDesc read_json(const Json&, ArraySource*);
 template WorldDesc read_json(const Json&, ArraySource*);
 template CameraDesc read_json(const Json&, ArraySource*);
 template Settings read_json(const Json&, ArraySource*);
+template FilterSettings read_json(const Json&, ArraySource*);
 template SceneDesc read_json(const Json&, ArraySource*);
 
 }  // namespace cardioid::scene

@@ -110,6 +110,7 @@ template Json write_json(const LightDesc&, ArraySink*);
 template Json write_json(const WorldDesc&, ArraySink*);
 template Json write_json(const CameraDesc&, ArraySink*);
 template Json write_json(const Settings&, ArraySink*);
+template Json write_json(const FilterSettings&, ArraySink*);
 template Json write_json(const SceneDesc&, ArraySink*);
 
 }  // namespace cardioid::scene

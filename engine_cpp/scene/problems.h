@@ -43,5 +43,6 @@ void validate_graph(GraphDesc& graph, const std::string& who, std::size_t images
 void validate_instances(SceneDesc& scene, ProblemList& problems);
 void validate_lights(SceneDesc& scene, ProblemList& problems);
 void validate_settings(SceneDesc& scene, ProblemList& problems);
+void validate_filter(FilterSettings& settings, ProblemList& problems);
 
 }  // namespace cardioid::scene

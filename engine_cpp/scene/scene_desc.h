@@ -5,6 +5,7 @@
 #pragma once
 
 #include "math/types.h"
+#include "scene/filter_settings.h"
 #include "scene/graph_desc.h"
 
 #include <cstdint>
@@ -185,6 +186,10 @@ struct Settings {
     RadiusSchedule radius_schedule = RadiusSchedule::memoryless;
     bool guided_emission = true;       ///< photons learn in the first passes where they are needed
     bool blend_caustic_hits = true;    ///< camera paths that meet a lamp through D S+ count too, weighted by MIS
+    float adaptive_threshold = 0;      ///< noise at which a pixel needs no more samples, as in Cycles; 0: all get all
+    int adaptive_min_samples = 0;      ///< that every pixel gets; 0: by the threshold
+    bool record_clusters = true;       ///< keep what the filter needs, so that it can be used after the render
+    FilterSettings filter;             ///< its names stand beside these in files
     bool physical_refraction = false;  ///< radiance scaled by eta² in denser media; false: as Cycles, where it is not
     PixelFilter pixel_filter = PixelFilter::blackman_harris;
     float filter_width = 1.5f;  ///< pixels

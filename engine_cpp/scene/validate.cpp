@@ -133,6 +133,12 @@ std::vector<Problem> validate(SceneDesc& scene) {
     return problems.take();
 }
 
+std::vector<Problem> validate(FilterSettings& settings) {
+    ProblemList problems;
+    validate_filter(settings, problems);
+    return problems.take();
+}
+
 bool has_errors(const std::vector<Problem>& problems) {
     return std::any_of(problems.begin(), problems.end(),
                        [](const Problem& p) { return p.severity == Severity::error; });

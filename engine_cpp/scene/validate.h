@@ -29,6 +29,9 @@ struct Problem {
 ///  - numbers in lamps, world, camera and settings are finite and in their documented range
 std::vector<Problem> validate(SceneDesc& scene);
 
+/// The same for what may change after a render: numbers are finite and in range, the size is odd. Warnings alone.
+std::vector<Problem> validate(FilterSettings& settings);
+
 bool has_errors(const std::vector<Problem>& problems);
 /// Errors first.
 std::vector<std::string> messages(const std::vector<Problem>& problems);

@@ -34,8 +34,21 @@ void check_samples(const Settings& s, ProblemList& problems) {
         problems.error("settings: first_sample and samples together exceed what can be counted");
 }
 
+void repair_filter(FilterSettings& s, ProblemList& problems) {
+    const std::string who = "settings";
+    repair(problems, who, "firefly_density", s.firefly_density, 0, k_large, FilterSettings{}.firefly_density);
+    repair(problems, who, "luminance_sensitivity", s.luminance_sensitivity, 0, 0.99f, 0.5f);
+    repair(problems, who, "texture_width", s.texture_width, 1e-4f, k_large, 0.1f);
+    repair(problems, who, "filter_size", s.filter_size, 1, k_largest_filter);
+    // A kernel has a pixel in its middle.
+    s.filter_size |= 1;
+}
+
 void repair_settings(Settings& s, ProblemList& problems) {
     const std::string who = "settings";
+    repair_filter(s.filter, problems);
+    repair(problems, who, "adaptive_threshold", s.adaptive_threshold, 0, 1, 0);
+    repair(problems, who, "adaptive_min_samples", s.adaptive_min_samples, 0, 1 << 24);
     repair(problems, who, "time_limit", s.time_limit, 0, k_large, 0);
     repair(problems, who, "threads", s.threads, 0, 1024);
     repair(problems, who, "max_bounces", s.max_bounces, 0, k_most_bounces);
@@ -91,6 +104,8 @@ void check_camera(SceneDesc& scene, ProblemList& problems) {
 }
 
 }  // namespace
+
+void validate_filter(FilterSettings& settings, ProblemList& problems) { repair_filter(settings, problems); }
 
 void validate_settings(SceneDesc& scene, ProblemList& problems) {
     check_camera(scene, problems);
