@@ -30,7 +30,8 @@ std::int64_t part_in(const Cluster& c, const Range& range) {
     if (low && high) return whole(c);
     const float share = (std::min(c.max, range.high) - std::max(c.min, range.low)) / (c.max - c.min);
     const float between = share * static_cast<float>(k_evidence);
-    return (low || high ? k_evidence : 0) + (static_cast<std::int64_t>(c.samples) - 2) * static_cast<std::int64_t>(between);
+    return (low || high ? k_evidence : 0) +
+           (static_cast<std::int64_t>(c.samples) - 2) * static_cast<std::int64_t>(between);
 }
 
 class Rejector {

@@ -22,7 +22,9 @@ RejectionKernel::RejectionKernel(const scene::FilterSettings& settings, int widt
             if (dx != 0 || dy != 0) steps_.push_back({dx, dy});
         }
     }
-    const auto nearer = [](const Step& a, const Step& b) { return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy; };
+    const auto nearer = [](const Step& a, const Step& b) {
+        return a.dx * a.dx + a.dy * a.dy < b.dx * b.dx + b.dy * b.dy;
+    };
     std::stable_sort(steps_.begin(), steps_.end(), nearer);
 }
 
