@@ -18,7 +18,7 @@ LICENSE_LINE = "SPDX-License-Identifier: GPL-3.0-or-later"
 
 _SCENE = {"math", "scene"}
 _TRACE = {"simd", "math", "scene", "image", "bsdf", "nodes", "light"}
-_RENDER = _TRACE | {"trace", "path", "photon", "film"}
+_RENDER = _TRACE | {"trace", "path", "photon", "film", "filter"}
 
 # What each room may include besides itself.
 ALLOWED: dict[str, set[str]] = {
@@ -33,6 +33,7 @@ ALLOWED: dict[str, set[str]] = {
     "photon": {"math"},
     "path": _TRACE | {"trace", "photon"},
     "film": _SCENE,
+    "filter": _SCENE | {"simd", "film"},
     "render": _RENDER,
     "apps": _RENDER | {"render"},
 }

@@ -22,6 +22,8 @@ class PhotonGuide;
 namespace cardioid::path {
 
 inline constexpr int k_batch = 1024;
+/// Layers of incident light: straight from a lamp, scattered once, scattered more often before x_d (film/cluster.h).
+inline constexpr int k_layers = 3;
 /// Arrays are padded so that a full-width store at the last element stays inside.
 inline constexpr int k_padded = k_batch + 64;
 
@@ -45,6 +47,8 @@ struct alignas(64) RayState {
     PathInts transparent;  ///< transparent surfaces passed
 };
 inline constexpr int k_state_shift = 8;
+/// Camera paths: scatterings since x_d, x_d included, at most k_layers; 0 before it.
+inline constexpr int k_layer_shift = 14;
 inline constexpr std::int32_t k_flag_last = 1 << 12;        ///< only emission counts at the next surface
 inline constexpr std::int32_t k_flag_background = 1 << 13;  ///< nothing but transparency since the camera
 /// Photons: scene::Visibility bits of what the segment came from; lobes at its far end that it is hidden from do not see it.
@@ -79,7 +83,8 @@ struct alignas(64) ShadowQueue {
     static constexpr int capacity = 1024;
     int n = 0;
     PathFloats origin[3], direction[3], t_max, radiance[3];
-    PathInts path, path_class;
+    PathFloats incident[3];  ///< I, where layers are wanted
+    PathInts path, path_class, layer;
 };
 
 /// Of scene-linear Rec.709.
@@ -91,6 +96,11 @@ struct alignas(64) BatchResult {
     PathFloats radiance[k_classes][3];
     PathFloats alpha;             ///< share of the camera ray that something stopped
     PathFloats depth, normal[3];  ///< at the first surface; depth 1e10 where there is none
+    PathFloats unfiltered[3];     ///< the part of the radiance that is in no layer: D1 and photons
+    /// R and I of the layers of incident light (film/cluster.h); with BatchRequest::layers only, as what follows.
+    PathFloats layer_radiance[k_layers][3], layer_incident[k_layers][3];
+    PathFloats detail[3];         ///< albedo of the D lobes at x_d × throughput before it
+    PathFloats feature_normal[3], feature_depth, feature_depth_squared;  ///< at x_d, × luminance(detail)
     PathFloats caustic_hits;      ///< luminance of C1 as if camera paths alone brought it; with photons only
     PathInts x, y, sample;        ///< pixel in the frame and number of the sample
 };
@@ -154,6 +164,9 @@ struct BatchRequest {
     std::uint32_t seed = 0;
     Partition partition;
     const PhotonPass* photons = nullptr;  ///< null: nothing is gathered
+    bool layers = false;                  ///< incident light in layers is wanted
+    /// Which pixels are traced, width × height from the bottom left; null: all.
+    const std::uint8_t* active = nullptr;
 };
 
 /// Photons that the vertices of one packet have found: lists by lane. Where there are more, every second one is dropped, as often
@@ -225,6 +238,7 @@ struct alignas(64) Scratch {
     nodes::Scratch registers;
     PathInts order;  ///< paths sorted by material
     GatherLists gather;
+    PathFloats demodulation[3];  ///< by path: I over R of what arrives at x_d along the sampled direction
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them
     std::int32_t* bins = nullptr;       ///< material_count + 2 counters, owned by the caller
     Counters counters;

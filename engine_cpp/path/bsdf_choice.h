@@ -104,13 +104,26 @@ inline Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparen
     return c;
 }
 
+/// D lobes of a vertex together.
+struct DetailSum {
+    Spectrum albedo{0.0f};
+    Vec3 normal{0.0f, 0.0f, 0.0f};  ///< × luminance of the lobe's albedo
+};
+
 /// Fills chunk.pick with the lobes' shares of the albedo, transparency included; returns the share of going straight through.
-inline Float choose_by_albedo(path::VertexChunk& chunk, int i, Vec3 wo, Spectrum transparency) {
+inline Float choose_by_albedo(path::VertexChunk& chunk, int i, Vec3 wo, Spectrum transparency,
+                              float caustic_roughness = 0, DetailSum* detail = nullptr) {
     Float total = 0.0f;
     for (int k = 0; k < chunk.lobes; ++k) {
-        const Float albedo = max(average(lobe_albedo(chunk.lobe[k], i, wo)), 0.0f);
+        const bsdf::Lobe& lobe = chunk.lobe[k];
+        const Spectrum color = lobe_albedo(lobe, i, wo);
+        const Float albedo = max(average(color), 0.0f);
         store(chunk.pick[k] + i, albedo);
         total += albedo;
+        if (!detail) continue;
+        const Spectrum d = select(is_specular(lobe, i, caustic_roughness), Spectrum(0.0f), color);
+        detail->albedo += d;
+        detail->normal = detail->normal + load3(lobe.normal, i) * luminance(d);
     }
     const Float through = max(average(transparency), 0.0f);
     total += through;

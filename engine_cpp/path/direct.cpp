@@ -119,10 +119,20 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Vec3 direction = select(light.infinite, light.wi, to_light * (1.0f / max(distance, 1e-37f)));
     const Float t_max = select(light.infinite, Float(1e30f), distance - reach * 1e-5f);
     path::ShadowQueue& q = scratch.shadows;
-    const auto queue = [&](Spectrum f_cos, Float pdf, Int after, Mask m) {
+    const bool layers = request.layers;
+    const Int since_d = scatterings_since_d(load(chunk.flags + i));
+    const Spectrum incident = radiance * (abs(dot(n, light.wi)) / max(light.pdf, 1e-37f));
+    const auto queue = [&](Spectrum f_cos, Float pdf, Int after, bool d_lobes, Mask m) {
         const Float weight = select(light.delta, Float(1.0f), power_heuristic(light.pdf, pdf));
-        const Spectrum c = clamp_contribution(arriving * f_cos * weight, bounce, clamp_direct, clamp_indirect);
+        const Spectrum whole = arriving * f_cos * weight;
+        const Float kept = clamp_factor(whole, bounce, clamp_direct, clamp_indirect);
+        const Spectrum c = whole * kept;
         m &= not_black(c);
+        Light found{c};
+        if (layers && d_lobes) {
+            found.incident = select(since_d == Int(0), incident * (weight * kept), demodulated(path, c));
+            found.layer = min(since_d, Int(path::k_layers - 1));
+        }
         const Mask shadowed = m & light.casts_shadow;
         const int at_n = q.n;
         append(q.origin[0], at_n, origin.x, shadowed);
@@ -135,16 +145,22 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         append(q.radiance[0], at_n, c.r, shadowed);
         append(q.radiance[1], at_n, c.g, shadowed);
         append(q.radiance[2], at_n, c.b, shadowed);
+        if (layers) {
+            append(q.incident[0], at_n, found.incident.r, shadowed);
+            append(q.incident[1], at_n, found.incident.g, shadowed);
+            append(q.incident[2], at_n, found.incident.b, shadowed);
+            compress_store(q.layer + at_n, found.layer, shadowed);
+        }
         compress_store(q.path + at_n, path, shadowed);
         q.n += compress_store(q.path_class + at_n, after, shadowed);
-        add_radiance(result, after, path, c, m & ~light.casts_shadow);
+        add_light(result, layers, after, path, found, m & ~light.casts_shadow);
     };
     Mask by_d = lit & not_black(f.d);
     if (!all_classes) by_d &= in_set(after_d, request.partition.camera);
-    queue(f.d, f.pdf_d, after_d, by_d);
+    queue(f.d, f.pdf_d, after_d, true, by_d);
     // Rough specular lobes are connected only while every vertex before was specular: after a D that is a caustic.
     const Mask rough_specular = lit & not_black(f.s) & before_d;
-    if (any(rough_specular)) queue(f.s, f.pdf_s, Int(static_cast<int>(path::State::specular)), rough_specular);
+    if (any(rough_specular)) queue(f.s, f.pdf_s, Int(static_cast<int>(path::State::specular)), false, rough_specular);
 }
 
 void Tracer::flush_shadows() {
@@ -161,10 +177,17 @@ void Tracer::flush_shadows() {
         ray.mask = Int(trace::mask_shadow_opaque);
         if (scratch.ray_log) log_rays(*scratch.ray_log, ray, lanes, path::ray_kind_shadow);
         Mask visible = lanes & ~occluded(scene.embree, ray, lanes);
-        Spectrum c{load(q.radiance[0] + i), load(q.radiance[1] + i), load(q.radiance[2] + i)};
-        if (scene.has_transparent_shadows && any(visible)) c *= through_transparent(ray, visible);
-        const Int path = load(q.path + i), path_class = load(q.path_class + i);
-        add_radiance(result, path_class, path, c, visible);
+        Light light{{load(q.radiance[0] + i), load(q.radiance[1] + i), load(q.radiance[2] + i)}};
+        if (request.layers) {
+            light.incident = {load(q.incident[0] + i), load(q.incident[1] + i), load(q.incident[2] + i)};
+            light.layer = load(q.layer + i);
+        }
+        if (scene.has_transparent_shadows && any(visible)) {
+            const Spectrum passed = through_transparent(ray, visible);
+            light.radiance *= passed;
+            light.incident *= passed;
+        }
+        add_light(result, request.layers, load(q.path_class + i), load(q.path + i), light, visible);
     }
     q.n = 0;
 }

@@ -34,9 +34,16 @@ void Tracer::deposit(Int ray, Spectrum radiance, Float share, Mask active) {
     Spectrum c = Spectrum{tp.x, tp.y, tp.z} * radiance;
     // Light found by a hit belongs to the bounce before it.
     const Int bounce = byte_of(gather(rays.depth, ray), 0) - Int(1);
-    c = clamp_contribution(c, bounce, scene.settings.clamp_direct, scene.settings.clamp_indirect);
-    const Int path_of = gather(rays.path, ray), state = state_of(gather(rays.flags, ray));
-    add_radiance(result, state, path_of, c * share, active);
+    c = c * clamp_factor(c, bounce, scene.settings.clamp_direct, scene.settings.clamp_indirect);
+    const Int flags = gather(rays.flags, ray);
+    const Int path_of = gather(rays.path, ray), state = state_of(flags);
+    Light light{c * share};
+    if (request.layers) {
+        light.incident = demodulated(path_of, light.radiance);
+        // 0 before x_d: k_no_layer.
+        light.layer = scatterings_since_d(flags) - Int(1);
+    }
+    add_light(result, request.layers, state, path_of, light, active);
     if (!request.photons) return;
     const Mask hits = active & (state == Int(static_cast<int>(path::State::caustic_hit)));
     for (std::uint32_t b = bits(hits); b != 0; b &= b - 1) {

@@ -204,7 +204,8 @@ void Tracer::add_estimate(const path::VertexChunk& chunk, int i, const Spectrum 
     if (!pass.pixels) {
         const Float radius = load(chunk.radius + i);
         const Float per_area = 1.0f / (k_pi * radius * radius * pass.emitted);
-        for (int k = 1; k < path::k_classes; ++k) add_radiance(result, Int(k), path, sum[k] * scale * per_area, active);
+        for (int k = 1; k < path::k_classes; ++k)
+            add_light(result, request.layers, Int(k), path, {sum[k] * scale * per_area}, active);
         return;
     }
     for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {

@@ -37,9 +37,12 @@ struct NextPath {
 NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Choice& c) {
     NextPath n;
     n.depth = count_bounce(depth, c);
-    const Int state = step_state(state_of(flags), c.specular);
+    const Int state = step_state(state_of(flags), c.specular), since_d = scatterings_since_d(flags);
+    const Int layer =
+        select((since_d > Int(0)) | ~c.specular, min(since_d + Int(1), Int(path::k_layers)), Int(0));
     const Mask last = over_limits(settings, n.depth);
-    n.flags = ray_kind(c) | (state << path::k_state_shift) | select(last, Int(path::k_flag_last), Int(0));
+    n.flags = ray_kind(c) | (state << path::k_state_shift) | (layer << path::k_layer_shift) |
+              select(last, Int(path::k_flag_last), Int(0));
     if (settings.transparent_film && settings.transparent_glass) {
         // Clear glass lets the background's transparency through, as Cycles' Transparent Glass.
         const float roughness = settings.transparent_roughness;
@@ -210,7 +213,10 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
 
         adjust_lobes(chunk, i, flags, min_pdf);
         const Spectrum transparency = load_rgb(out.transparency, i);
-        const Float pick_through = choose_by_albedo(chunk, i, wo, transparency);
+        DetailSum detail;
+        const bool wants_detail = request.layers && any(lanes & (scatterings_since_d(flags) == Int(0)));
+        const Float pick_through = choose_by_albedo(chunk, i, wo, transparency, settings.caustic_roughness,
+                                                    wants_detail ? &detail : nullptr);
 
         const Mask last = (flags & Int(path::k_flag_last)) != Int(0);
         const Mask alive = lanes & ~held;
@@ -232,6 +238,10 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
         Choice c = sample_bsdf(chunk, pick_through, i, wo, ng, u, chance.y, settings, Transport::radiance, alive);
         c.valid &= scatters & (c.pdf > Float(0.0f));
+        if (wants_detail) {
+            add_features(chunk, i, detail, flags, scatters);
+            mark_incident(chunk, i, c, flags, scatters);
+        }
         const Float width = gather(rays.width, ray), spread = gather(rays.spread, ray);
         Float merge = gather(rays.merge, ray);
         if (request.photons) merge = mark_gather(chunk, i, c, scatters, footprint(width, spread, t), merge);

@@ -18,6 +18,7 @@ int assign_pixels(const path::BatchRequest& request, path::BatchResult& result) 
     for (int code = 0; code < (1 << 12); ++code) {
         const int dx = even_bits(code), dy = even_bits(code >> 1);
         if (dx >= request.width || dy >= request.height) continue;
+        if (request.active && request.active[dy * request.width + dx] == 0) continue;
         for (int s = 0; s < request.samples; ++s, ++n) {
             result.x[n] = request.x + dx;
             result.y[n] = request.y + dy;
@@ -26,6 +27,19 @@ int assign_pixels(const path::BatchRequest& request, path::BatchResult& result) 
         if (n == request.width * request.height * request.samples) break;
     }
     return n;
+}
+
+void clear_layers(path::BatchResult& result, int i) {
+    const auto clear = [i](path::PathFloats(&rows)[3]) { store3(rows, i, {0.0f, 0.0f, 0.0f}); };
+    clear(result.unfiltered);
+    clear(result.detail);
+    clear(result.feature_normal);
+    store(result.feature_depth + i, Float(0.0f));
+    store(result.feature_depth_squared + i, Float(0.0f));
+    for (int l = 0; l < path::k_layers; ++l) {
+        clear(result.layer_radiance[l]);
+        clear(result.layer_incident[l]);
+    }
 }
 }  // namespace
 
@@ -63,6 +77,7 @@ void Tracer::start() {
         for (auto& c : result.radiance) {
             for (auto& channel : c) store(channel + i, Float(0.0f));
         }
+        if (request.layers) clear_layers(result, i);
         store(result.alpha + i, Float(1.0f));
         store(result.caustic_hits + i, Float(0.0f));
         store(result.depth + i, Float(1e10f));

@@ -40,6 +40,7 @@ struct Walk {
 };
 
 struct Choice;
+struct DetailSum;
 
 struct Tracer : Walk {
     const path::BatchRequest& request;
@@ -72,6 +73,14 @@ struct Tracer : Walk {
     path::VertexChunk* new_record(int material);
     void write_first_hit(const std::int32_t* rays, int n);
     void log_vertices(const path::VertexChunk& chunk, int material);
+
+    // layers.cpp: incident light at x_d, for clusters and filter (thesis 6.2).
+    /// Texture detail, normal and depth of the vertices that may be x_d; `flags` of the arriving rays.
+    void add_features(const path::VertexChunk& chunk, int i, const DetailSum& detail, Int flags, Mask scatters);
+    /// Where a D lobe was taken for the first time: what leads from R to I for all light that arrives along wi.
+    void mark_incident(const path::VertexChunk& chunk, int i, const Choice& c, Int flags, Mask scatters);
+    /// I of light R that comes after x_d.
+    Spectrum demodulated(Int path, Spectrum radiance) const;
 
     // gather.cpp: photons around x_d, the first vertex where a D lobe was chosen.
     /// Fills the chunk's gather and radius; returns RayState::merge of the ways on.
@@ -252,16 +261,40 @@ inline void append_ray(path::RayState& to, const RayLaneState& r, Mask m) {
     to.n += compress_store(to.transparent + n, r.transparent, m);
 }
 
-/// Adds radiance to the paths' sums of their classes, in lane order: several lanes may share a path.
-inline void add_radiance(path::BatchResult& result, Int path_class, Int path, Spectrum c, Mask active) {
+inline void add_to(path::PathFloats (&sums)[3], int path, Spectrum c, int lane) {
+    sums[0][path] += c.r[lane];
+    sums[1][path] += c.g[lane];
+    sums[2][path] += c.b[lane];
+}
+
+/// Light that belongs to no layer: D1 and photons.
+constexpr int k_no_layer = -1;
+
+/// R and I of light that camera paths find (film/cluster.h); the layer is k_no_layer where it is not filtered.
+struct Light {
+    Spectrum radiance, incident{0.0f};
+    Int layer = Int(k_no_layer);
+};
+
+/// Adds light to the paths' sums of their classes and layers, in lane order: several lanes may share a path.
+inline void add_light(path::BatchResult& result, bool layers, Int path_class, Int path, const Light& light,
+                      Mask active) {
     for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
         const int k = std::countr_zero(b);
-        auto& sums = result.radiance[path_class[k]];
-        sums[0][path[k]] += c.r[k];
-        sums[1][path[k]] += c.g[k];
-        sums[2][path[k]] += c.b[k];
+        add_to(result.radiance[path_class[k]], path[k], light.radiance, k);
+        if (!layers) continue;
+        const int layer = light.layer[k];
+        if (layer == k_no_layer) {
+            add_to(result.unfiltered, path[k], light.radiance, k);
+            continue;
+        }
+        add_to(result.layer_radiance[layer], path[k], light.radiance, k);
+        add_to(result.layer_incident[layer], path[k], light.incident, k);
     }
 }
+
+/// Scatterings since x_d (path::k_layer_shift).
+inline Int scatterings_since_d(Int flags) { return (flags >> path::k_layer_shift) & Int(3); }
 
 /// MIS by the power heuristic (exponent 2); pdf of the other technique may be 0.
 inline Float power_heuristic(Float pdf, Float other) {
@@ -269,13 +302,13 @@ inline Float power_heuristic(Float pdf, Float other) {
     return a / max(a + other * other, 1e-37f);
 }
 
-/// Cycles' clamp of one contribution: the sum of the components, against 3 × the limit. limit 0: off.
-inline Spectrum clamp_contribution(Spectrum c, Int bounce, float direct, float indirect) {
-    if (direct <= 0 && indirect <= 0) return c;
+/// Cycles' clamp of one contribution, as a factor: the sum of the components, against 3 × the limit. limit 0: off.
+inline Float clamp_factor(Spectrum c, Int bounce, float direct, float indirect) {
+    if (direct <= 0 && indirect <= 0) return 1.0f;
     const Float limit = 3.0f * select(bounce > Int(0), Float(indirect), Float(direct));
     const Float sum = abs(c.r) + abs(c.g) + abs(c.b);
     const Mask over = (limit > Float(0.0f)) & (sum > limit);
-    return c * select(over, limit / sum, Float(1.0f));
+    return select(over, limit / sum, Float(1.0f));
 }
 
 }  // namespace cardioid::CD_ISA_NS
