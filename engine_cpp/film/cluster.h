@@ -19,11 +19,12 @@ struct LayerSample {
 /// Samples of one pixel and layer whose luminance Y(I) is alike; lists ascend in it and are disjoint.
 struct Cluster {
     float radiance[3] = {};      ///< ΣR
-    float incident[3] = {};      ///< ΣI
+    float incident = 0;          ///< ΣY(I)
     float radiance_squared = 0;  ///< ΣY(R)²: the filter weighs means of R by their variance
     float min = 0, max = 0;      ///< of Y(I); both > 0
     std::uint32_t samples = 0;   ///< N
 };
+static_assert(sizeof(Cluster) == 32);
 
 /// Rec.709, as simd's luminance() over lanes.
 constexpr float luminance(const float (&c)[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
