@@ -298,18 +298,21 @@ void PhotonStage::Impl::learn_guide() {
     gathered.reset();
 }
 
-void PhotonStage::resolve(const film::Region& part, float exposure, film::Frame& frame) const {
+void PhotonStage::store(const film::Region& part, film::Film& film) const {
     const Impl& s = *impl_;
     if (s.pixels.empty()) return;
     const auto emitted = static_cast<double>(stats().emitted);
-    for (int y = part.y; y < part.y + part.height; ++y) {
-        for (int x = part.x; x < part.x + part.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y - s.region.y) * s.region.width + (x - s.region.x);
-            const photon::PixelStatistics& p = s.pixels[i];
+    for (int y = part.y - s.region.y; y < part.y - s.region.y + part.height; ++y) {
+        for (int x = part.x - s.region.x; x < part.x - s.region.x + part.width; ++x) {
+            const photon::PixelStatistics& p = s.pixels[static_cast<std::size_t>(y) * s.region.width + x];
             if (p.radius <= 0) continue;
             const double area = 3.14159265358979 * static_cast<double>(p.radius) * static_cast<double>(p.radius);
-            const auto scale = static_cast<float>(static_cast<double>(exposure) / (emitted * area));
-            for (int c = 0; c < photon::k_photon_classes; ++c) film::add_to_class(frame, i, c + 1, p.tau[c], scale);
+            const auto scale = static_cast<float>(1 / (emitted * area));
+            float means[film::k_classes - 1][3];
+            for (int c = 0; c < photon::k_photon_classes; ++c) {
+                for (int k = 0; k < 3; ++k) means[c][k] = p.tau[c][k] * scale;
+            }
+            film.set_photons(x, y, means);
         }
     }
 }

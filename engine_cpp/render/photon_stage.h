@@ -53,8 +53,9 @@ public:
     BalanceMeter* meter(const Pass& pass);
     /// After the camera paths of a training pass: learns from what they gathered. `work`: counted so far in the whole render.
     void learn(const Pass& pass, const path::Counters& work);
-    /// Per-pixel schedule: adds the photons' part to the frame's pixels inside `part` (frame coordinates).
-    void resolve(const film::Region& part, float exposure, film::Frame& frame) const;
+    /// Per-pixel schedule: tells the film the photons' part of the pixels inside `part` (frame coordinates), whose camera paths
+    /// have gathered from the last pass.
+    void store(const film::Region& part, film::Film& film) const;
     /// Whether passes depend on the ones before (the per-pixel schedule).
     bool has_state() const;
     PhotonStats stats() const;

@@ -24,10 +24,15 @@ std::string tbb_version() { return TBB_runtime_version(); }
 Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width, std::vector<std::string> notes)
     : impl_(std::make_unique<Impl>(std::move(desc), width)) {
     impl_->scene_warnings = std::move(notes);
-    impl_->picture = impl_->film.make_frame();
+    impl_->picture = impl_->film->make_frame();
+    for (const film::Pass& p : impl_->picture.passes)
+        impl_->picture_bytes += static_cast<std::int64_t>(p.data.size() * sizeof(float));
+    impl_->unfinished_pixels = impl_->adaptive.active_pixels();
+    impl_->measure_film();
 }
 
 Session::~Session() {
+    impl_->abandoned = true;
     cancel();
     if (impl_->controller.joinable()) impl_->controller.join();
 }
@@ -53,13 +58,12 @@ Progress Session::progress() const {
     const Impl& s = *impl_;
     Progress p;
     const scene::Settings& settings = s.desc->settings;
-    const film::Region region = s.film.region();
-    const double pixels = static_cast<double>(region.width) * region.height;
+    const double pixels = static_cast<double>(s.region.width) * s.region.height;
     const double done = static_cast<double>(s.pixel_samples.load()) / pixels;
     p.revision = s.revision.load();
     p.total_samples = settings.samples;
     p.samples = static_cast<int>(done);
-    p.fraction = done / settings.samples;
+    p.fraction = s.converged ? 1 : done / settings.samples;
     const std::lock_guard lock(s.state_mutex);
     p.phase = s.phase;
     p.message = s.message;
@@ -74,7 +78,7 @@ Progress Session::progress() const {
         }
     }
     const auto& b = s.build_stats;
-    p.memory_bytes = b.embree_bytes + b.geometry_bytes + b.image_bytes + b.light_bytes + 2 * s.film.memory_bytes();
+    p.memory_bytes = b.embree_bytes + b.geometry_bytes + b.image_bytes + b.light_bytes + s.film_bytes + s.picture_bytes;
     if (s.photons && s.render_started != Clock::time_point{}) {
         const PhotonStats photons = s.photons->stats();
         p.passes = photons.passes;
@@ -91,6 +95,12 @@ std::shared_ptr<const film::Frame> Session::frame() const {
     return std::make_shared<const film::Frame>(impl_->picture);
 }
 
+std::shared_ptr<const film::Film> Session::film() const {
+    const std::lock_guard lock(impl_->state_mutex);
+    if (!impl_->finished || impl_->phase == Phase::failed || impl_->revision == 0) return nullptr;
+    return impl_->film;
+}
+
 std::vector<std::string> Session::warnings() const {
     const std::lock_guard lock(impl_->state_mutex);
     return impl_->scene_warnings;
@@ -105,7 +115,7 @@ StatsJson Session::stats() const {
     nlohmann::json j;
     j["phase"] = phase_name(s.phase);
     j["samples"] = p.samples;
-    j["resolution"] = {s.film.region().width, s.film.region().height};
+    j["resolution"] = {s.region.width, s.region.height};
     j["seed"] = s.desc->settings.seed;
     j["threads"] = s.threads();
     j["lanes"] = s.width;
@@ -128,11 +138,8 @@ StatsJson Session::stats() const {
                    {"light_samples", c.light_samples}, {"non_finite_dropped", s.dropped},
                    {"triangles", b.triangles},         {"unique_triangles", b.unique_triangles},
                    {"instances", b.instances},         {"emissive_triangles", b.emissive_triangles}};
-    j["bytes"] = {{"ray_tree", b.embree_bytes},
-                  {"geometry", b.geometry_bytes},
-                  {"images", b.image_bytes},
-                  {"lights", b.light_bytes},
-                  {"film", s.film.memory_bytes()}};
+    j["bytes"] = {{"ray_tree", b.embree_bytes}, {"geometry", b.geometry_bytes}, {"images", b.image_bytes},
+                  {"lights", b.light_bytes},    {"film", s.film_bytes.load()},  {"clusters", s.cluster_bytes.load()}};
     j["bytes"]["photons"] = photons.bytes;
     j["photons"] = {{"passes", photons.passes},
                     {"skipped_passes", photons.skipped_passes},
@@ -145,6 +152,14 @@ StatsJson Session::stats() const {
                     {"rays", c.photon_rays},
                     {"dropped", c.photons_dropped},
                     {"per_sample", photons.per_sample}};
+    j["filter"] = to_json(s.filter_report);
+    j["filter"]["runs"] = s.filter_schedule.runs();
+    j["filter"]["seconds_of_all_runs"] = s.filter_schedule.seconds();
+    if (s.adaptive.on()) {
+        j["adaptive"] = {{"min_samples", s.adaptive.min_samples()},
+                         {"mean_samples", s.mean_samples},
+                         {"unfinished_pixels", s.unfinished_pixels.load()}};
+    }
     j["warnings"] = s.scene_warnings;
     return j.dump(2);
 }

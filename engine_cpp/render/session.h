@@ -3,7 +3,7 @@
 // back into it. The description may be shared by several sessions and is never changed.
 #pragma once
 
-#include "film/frame.h"
+#include "film/film.h"
 #include "scene/scene_desc.h"
 
 #include <cstdint>
@@ -37,7 +37,7 @@ public:
     /// `desc` has passed scene::validate. `width`: lanes, 0 for the best of this machine (tests choose).
     /// `notes`: what validation repaired; they stand first in warnings().
     explicit Session(std::shared_ptr<const scene::SceneDesc> desc, int width = 0, std::vector<std::string> notes = {});
-    /// Cancels and waits.
+    /// Cancels, filter runs too, and waits.
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -45,11 +45,15 @@ public:
     void start();
     /// True when the session has ended; waits at most `seconds`.
     bool wait(double seconds);
-    /// Stops soon; the picture so far stays.
+    /// Rendering stops soon (within a quarter of a second); the picture so far stays. With use_filter it is filtered once more
+    /// before the session ends ("Filtering"), if that can be afforded; the destructor does not wait for that.
     void cancel();
     Progress progress() const;
     /// A copy of the picture as it is now; null before the first tile.
     std::shared_ptr<const film::Frame> frame() const;
+    /// What was rendered, to be filtered again or saved; stays valid after the session. Null before the session has ended, and
+    /// where it failed or has rendered nothing.
+    std::shared_ptr<const film::Film> film() const;
     std::vector<std::string> warnings() const;
     StatsJson stats() const;
 

@@ -51,8 +51,10 @@ void Session::Impl::finish(Phase p, const std::string& text) {
 }
 
 bool Session::Impl::out_of_time() const {
-    const float limit = desc->settings.time_limit;
-    return limit > 0 && seconds_since(render_started) > static_cast<double>(limit);
+    const auto limit = static_cast<double>(desc->settings.time_limit);
+    // The last filter run is to fit too, where it does not take everything.
+    const double kept = std::min(filter_schedule.last_seconds(), 0.5 * limit);
+    return limit > 0 && seconds_since(render_started) + kept > limit;
 }
 
 void Session::Impl::run() {
@@ -63,6 +65,9 @@ void Session::Impl::run() {
             const FlushDenormals guard;
             build();
             render();
+            filter_at_end();
+            measure_film();
+            count_samples();
         });
         finish(cancelled ? Phase::cancelled : Phase::done, "");
     } catch (const trace::BuildCancelled&) { finish(Phase::cancelled, ""); } catch (const std::bad_alloc&) {
@@ -83,7 +88,15 @@ void Session::Impl::build() {
     scene_warnings.insert(scene_warnings.end(), found.begin(), found.end());
     build_stats = scene->stats();
     build_seconds = seconds_since(started);
-    photons = std::make_unique<PhotonStage>(*scene, film.region(), trace_photons);
+    photons = std::make_unique<PhotonStage>(*scene, region, trace_photons);
+    if (!photons->has_state()) return;
+    // Makes room in the film while one thread has it.
+    film->set_photons(0, 0, {});
+    if (adaptive.on()) {
+        adaptive = Adaptive({}, region);
+        scene_warnings.push_back(
+            "Adaptive sampling is off: radii of each pixel's own (radius schedule) need all samples of every pixel");
+    }
 }
 
 void Session::Impl::render() {
@@ -99,12 +112,28 @@ void Session::Impl::render() {
         const bool teaches = photons->active() && (pass.number < k_training_passes || photons->has_state());
         if (pass.first + pass.samples <= first && !teaches) continue;
         if (stop || (pass.first > first && out_of_time())) break;
+        converged = adaptive.finished();
+        if (converged) break;
         if (!teaches && pass.first < first) {
             pass.samples -= first - pass.first;
             pass.first = first;
         }
         render_pass(pass);
+        if (!stop) after_pass(pass.first + pass.samples);
     }
+}
+
+void Session::Impl::after_pass(int end) {
+    const int taken = end - desc->settings.first_sample;
+    if (taken <= 0) return;
+    if (adaptive.due(end, taken)) {
+        adaptive.update(*film);
+        unfinished_pixels = adaptive.active_pixels();
+    }
+    // Tiles without active pixels were not rendered, and are done all the same.
+    pixel_samples = std::int64_t{region.width} * region.height * taken;
+    measure_film();
+    if (filters() && filter_schedule.due(taken, seconds_since(render_started))) filter_picture();
 }
 
 void Session::Impl::render_pass(const Pass& pass) {
@@ -114,7 +143,8 @@ void Session::Impl::render_pass(const Pass& pass) {
     };
     if (!photons->trace(pass, photon_worker, stop)) return;
     const Clock::time_point camera_started = Clock::now();
-    const auto list = tiles(film.region(), pass.samples);
+    const auto& active = adaptive.active();
+    const auto list = active.empty() ? tiles(region, pass.samples) : active_tiles(region, pass.samples, active);
     tbb::parallel_for(
         std::size_t{0}, list.size(),
         [&](std::size_t i) {
@@ -171,6 +201,8 @@ void Session::Impl::render_tile(const film::Region& tile, const Pass& pass) {
     request.seed = desc->settings.seed;
     request.partition = photons->partition();
     request.photons = photons->gather();
+    request.layers = film->has_clusters();
+    request.active = active_in(tile, worker);
     path::BatchResult& r = *worker.result;
     trace_batch(request, *worker.scratch, r);
     // A batch that was cut short lacks light: it is not counted.
@@ -178,27 +210,25 @@ void Session::Impl::render_tile(const film::Region& tile, const Pass& pass) {
     if (BalanceMeter* meter = photons->meter(pass)) measure(r, pass.number, *meter);
     const int first = desc->settings.first_sample;
     if (pass.first + pass.samples <= first) return;
-    for (int i = 0; i < r.n; ++i) {
-        if (r.sample[i] < first) continue;
-        film::Sample s;
-        for (int c = 0; c < film::k_classes; ++c) {
-            for (int k = 0; k < 3; ++k) s.radiance[c][k] = r.radiance[c][k][i];
-        }
-        s.alpha = r.alpha[i];
-        s.depth = r.depth[i];
-        for (int k = 0; k < 3; ++k) s.normal[k] = r.normal[k][i];
-        if (!film.add(r.x[i], r.y[i], s, r.sample[i] == first)) ++worker.dropped;
-    }
-    {
-        const std::lock_guard lock(picture_mutex);
-        film.resolve(tile, picture);
-        photons->resolve(tile, desc->settings.exposure, picture);
-    }
+    add_samples(r, worker);
+    photons->store(tile, *film);
+    publish(tile);
     pixel_samples += std::int64_t{tile.width} * tile.height * (pass.samples - std::max(0, first - pass.first));
     if (revision++ == 0) {
         const std::lock_guard lock(state_mutex);
         first_tile_seconds = seconds_since(started);
     }
+}
+
+const std::uint8_t* Session::Impl::active_in(const film::Region& tile, Worker& w) const {
+    const auto& active = adaptive.active();
+    if (active.empty()) return nullptr;
+    w.active.clear();
+    for (int y = tile.y - region.y; y < tile.y - region.y + tile.height; ++y) {
+        const auto row = active.begin() + static_cast<std::ptrdiff_t>(y) * region.width + (tile.x - region.x);
+        w.active.insert(w.active.end(), row, row + tile.width);
+    }
+    return w.active.data();
 }
 
 }  // namespace cardioid::render

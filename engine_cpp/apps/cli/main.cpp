@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cardioid-render: renders a saved scene file, as the add-on's Export operator or Scene.save() writes it.
-#include "image/write.h"
+#include "apps/cli/output.h"
+#include "film/film_file.h"
 #include "render/replay.h"
 #include "render/session.h"
-#include "scene/error.h"
-#include "scene/json.h"
-#include "scene/replace_file.h"
 #include "scene/scene_file.h"
 #include "scene/validate.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <span>
 #include <vector>
 
 namespace {
@@ -23,7 +18,7 @@ namespace {
 using namespace cardioid;
 
 struct Options {
-    std::string scene, output = "cardioid.exr", stats;
+    std::string scene, output = "cardioid.exr", film, stats;
     int samples = 0, threads = -1, lanes = 0;
     double time_limit = -1;
     long long seed = -1;
@@ -36,6 +31,7 @@ int parse(int argc, char** argv, Options& o) {
     CLI::App app{"Renders a Cardioid scene file"};
     app.add_option("scene", o.scene, "scene file")->required();
     app.add_option("-o,--output", o.output, "picture: .exr (linear, all passes) or .png (sRGB)");
+    app.add_option("--film", o.film, "save the film too, which cardioid-filter filters again: .cardioid");
     app.add_option("--samples", o.samples, "camera paths a pixel")->check(CLI::PositiveNumber);
     app.add_option("--time-limit", o.time_limit, "seconds, 0: none")->check(CLI::NonNegativeNumber);
     app.add_option("--threads", o.threads, "0: all")->check(CLI::NonNegativeNumber);
@@ -53,64 +49,15 @@ int parse(int argc, char** argv, Options& o) {
     return -1;
 }
 
-/// All passes side by side in one EXR: the Combined pass as R, G, B, A, the others as Name.X.
-void write_layers(const film::Frame& frame, const std::string& path, const std::string& stats) {
-    std::vector<std::string> names;
-    for (const film::Pass& p : frame.passes) {
-        for (int c = 0; c < p.channels; ++c) {
-            const std::string letter(1, p.channels == 1 ? 'Z' : p.name == "Normal" ? "XYZ"[c] : "RGBA"[c]);
-            names.push_back(p.name == "Combined" ? letter : p.name + "." + letter);
-        }
-    }
-    const std::size_t pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
-    std::vector<float> all(pixels * names.size());
-    std::size_t at = 0;
-    for (const film::Pass& p : frame.passes) {
-        const auto channels = static_cast<std::size_t>(p.channels);
-        for (std::size_t i = 0; i < pixels; ++i)
-            std::copy_n(&p.data[i * channels], channels, &all[i * names.size() + at]);
-        at += channels;
-    }
-    image::write_exr(path, frame.width, frame.height, names, all, {{"cardioid:stats", stats}});
-}
-
-void write_picture(const film::Frame& frame, const std::string& path, const std::string& stats) {
-    const film::Pass& combined = *frame.find("Combined");
-    if (path.ends_with(".png")) {
-        image::write_png(path, frame.width, frame.height, combined.channels, combined.data);
-    } else {
-        write_layers(frame, path, stats);
-    }
-}
-
-/// "name=value": value as JSON, or else as text.
-void apply(scene::Settings& settings, const std::vector<std::string>& assignments) {
-    if (assignments.empty()) return;
-    scene::Json json = scene::write_json(settings);
-    for (const std::string& a : assignments) {
-        const std::size_t at = a.find('=');
-        if (at == std::string::npos) throw scene::SceneError("--set " + a + ": name=value is wanted");
-        const std::string text = a.substr(at + 1);
-        scene::Json value = scene::Json::parse(text, nullptr, false);
-        json[a.substr(0, at)] = value.is_discarded() ? scene::Json(text) : std::move(value);
-    }
-    settings = scene::read_json<scene::Settings>(json);
-}
-
-void write_text(const std::string& path, const std::string& text) {
-    scene::replace_file(path, [&](scene::FileWriter& file) { file.write(std::as_bytes(std::span(text))); });
-}
-
 int run(const Options& o) {
     auto desc = std::make_shared<scene::SceneDesc>(scene::load_scene(o.scene));
-    apply(desc->settings, o.set);
+    cli::apply(desc->settings, o.set);
     if (o.samples > 0) desc->settings.samples = o.samples;
     if (o.threads >= 0) desc->settings.threads = o.threads;
     if (o.time_limit >= 0) desc->settings.time_limit = static_cast<float>(o.time_limit);
     if (o.seed >= 0) desc->settings.seed = static_cast<std::uint32_t>(o.seed);
     const auto problems = scene::validate(*desc);
-    for (const auto& p : problems)
-        std::cerr << (p.severity == scene::Severity::error ? "error: " : "warning: ") << p.message << '\n';
+    for (const auto& p : problems) cli::say(p.severity == scene::Severity::error ? "error" : "warning", p.message);
     if (scene::has_errors(problems)) return 2;
     if (!o.pixel.empty()) {
         std::cout << render::replay_sample(*desc, o.pixel[0], o.pixel[1], o.pixel[2]);
@@ -126,12 +73,13 @@ int run(const Options& o) {
     }
     if (!o.quiet) std::fputc('\n', stderr);
     const render::Progress p = session.progress();
-    for (const auto& w : session.warnings()) std::cerr << "warning: " << w << '\n';
+    for (const auto& w : session.warnings()) cli::say("warning", w);
     if (p.phase == render::Phase::failed) throw scene::SceneError(p.message);
     const auto frame = session.frame();
     if (!frame) throw scene::SceneError("nothing was rendered: the time limit ended before the first tile");
-    write_picture(*frame, o.output, session.stats());
-    if (!o.stats.empty()) write_text(o.stats, session.stats());
+    cli::write_picture(*frame, o.output, session.stats());
+    if (!o.film.empty()) film::FilmFile::save(*session.film(), o.film);
+    if (!o.stats.empty()) cli::write_text(o.stats, session.stats());
     if (!o.quiet) std::cout << o.output << '\n';
     return 0;
 }
@@ -142,10 +90,5 @@ int main(int argc, char** argv) {
     Options options;
     const int done = parse(argc, argv, options);
     if (done >= 0) return done;
-    try {
-        return run(options);
-    } catch (const scene::SceneError& e) {
-        for (const auto& p : e.problems()) std::cerr << "error: " << p << '\n';
-    } catch (const std::exception& e) { std::cerr << "error: " << e.what() << '\n'; }
-    return 1;
+    return cli::guarded([&] { return run(options); });
 }

@@ -76,6 +76,9 @@ void bind_session(py::module_& m) {
                  const py::gil_scoped_release release;
                  return std::const_pointer_cast<film::Frame>(s.frame());
              })
+        .def(
+            "film", [](const render::Session& s) { return std::const_pointer_cast<film::Film>(s.film()); },
+            "What was rendered, once the session has ended; None where there is nothing.")
         .def("warnings", &render::Session::warnings)
         .def("stats", [](const render::Session& s) { return from_json(nlohmann::json::parse(s.stats())); });
 }

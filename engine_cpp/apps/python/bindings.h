@@ -45,5 +45,6 @@ private:
 
 void bind_scene(py::module_& m);
 void bind_session(py::module_& m);
+void bind_filter(py::module_& m);
 
 }  // namespace cardioid::python

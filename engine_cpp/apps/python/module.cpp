@@ -46,6 +46,7 @@ PYBIND11_MODULE(_core, m) {
     m.attr("__version__") = CARDIOID_VERSION;
     bind_error(m);
     bind_scene(m);
+    bind_filter(m);
     bind_session(m);
     m.def("version", &version, "Versions of the engine and its libraries, and the instruction set in use.");
     m.def(

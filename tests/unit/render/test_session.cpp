@@ -181,7 +181,7 @@ TEST(Session, PicturesOnTheWayHaveEveryPass) {
     session.start();
     ASSERT_TRUE(wait_for([&] { return session.frame() != nullptr; }));
     const auto early = session.frame();
-    EXPECT_EQ(early->passes.size(), 8u);
+    EXPECT_EQ(early->passes.size(), 11u);
     const float before = early->find("Combined")->data[0];
     ASSERT_TRUE(wait_for([&] { return session.progress().samples >= 4; }));
     EXPECT_EQ(early->find("Combined")->data[0], before) << "a copy, not the picture in work";
