@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cardioid::film {
 
@@ -115,15 +116,19 @@ void Film::set_photons(int x, int y, const float (&classes)[k_classes - 1][3]) {
 float Film::noise(int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x);
     const Pixel& p = pixels_[i];
-    const auto odd = static_cast<float>(p.samples / 2), all = static_cast<float>(p.samples);
+    if (p.samples < 2) return std::numeric_limits<float>::infinity();
+    const float of_all = exposure_ / static_cast<float>(p.samples),
+                of_odd = exposure_ / static_cast<float>(p.samples / 2);
     float difference = 0, brightness = 0;
     for (int k = 0; k < 3; ++k) {
         float sum = 0;
         for (const auto& c : p.radiance) sum += c[k];
-        difference += std::abs(sum / all - odd_[i].rgb[k] / odd);
-        brightness += sum / all;
+        difference += std::abs(sum * of_all - odd_[i].rgb[k] * of_odd);
+        brightness += sum * of_all;
     }
-    return difference / std::sqrt(std::max(brightness, 1e-8f));
+    // Overexposed pixels may be noisier; negative lamps leave nothing to compare with.
+    const float allowed = brightness < 1 ? std::sqrt(std::max(brightness, 0.0f)) : brightness;
+    return difference / (1e-4f + allowed);
 }
 
 Frame Film::make_frame() const {

@@ -69,8 +69,8 @@ public:
     /// and the classes.
     void resolve(const Region& part, Frame& frame, bool keep_combined = false) const;
 
-    /// Adaptive sampling (as Cycles): error of the pixel relative to its brightness; below the threshold it is done. Needs
-    /// settings.adaptive_threshold > 0 and two samples.
+    /// Adaptive sampling (as Cycles): error of the pixel relative to its brightness; below the threshold it is done. Infinite with
+    /// less than two samples. Needs settings.adaptive_threshold > 0.
     float noise(int x, int y) const;
 
     std::int64_t memory_bytes() const;

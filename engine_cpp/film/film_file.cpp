@@ -66,7 +66,10 @@ Json to_json(const Contents& c) {
 Contents from_json(const std::string& text) {
     const Json json = Json::parse(text);
     Contents c;
-    const auto region = json.at("region").get<std::array<std::int64_t, 4>>();
+    const Json& numbers = json.at("region");
+    if (!std::ranges::all_of(numbers, [](const Json& n) { return n.is_number_integer(); }))
+        throw SceneError("is damaged: its region is not in pixels");
+    const auto region = numbers.get<std::array<std::int64_t, 4>>();
     const auto side = [](std::int64_t at, std::int64_t size) {
         return at >= 0 && size >= 1 && size <= k_widest && at <= k_widest - size;
     };
@@ -75,8 +78,10 @@ Contents from_json(const std::string& text) {
                          " pixels");
     c.region = {static_cast<int>(region[0]), static_cast<int>(region[1]), static_cast<int>(region[2]),
                 static_cast<int>(region[3])};
-    c.exposure = json.at("exposure").get<float>();
-    if (!std::isfinite(c.exposure)) throw SceneError("is damaged: its exposure is not a number");
+    const auto exposure = json.at("exposure").get<double>();
+    if (!(std::abs(exposure) <= std::numeric_limits<float>::max()))
+        throw SceneError("is damaged: its exposure is not a number");
+    c.exposure = static_cast<float>(exposure);
     c.transparent = json.at("transparent_film").get<bool>();
     c.odd = json.at("odd_samples").get<bool>();
     c.photons = json.at("photons").get<bool>();

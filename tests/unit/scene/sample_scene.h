@@ -102,6 +102,8 @@ inline SceneDesc sample_scene() {
     s.width = 64, s.height = 32, s.crop = {1, 2, 3, 4}, s.samples = 5, s.first_sample = 6, s.seed = 0xffffffffu;
     s.pixel_filter = PixelFilter::gaussian, s.memory_limit = 1ll << 40, s.transparent_film = true;
     s.ocio_config = "/some/config.ocio";
+    s.adaptive_threshold = 0.02f, s.adaptive_min_samples = 7, s.record_clusters = false;
+    s.filter = {true, FilterMethod::cross_bilateral, 0.25f, 0.125f, 21, false, false, false, 0.3f};
     return scene;
 }
 

@@ -319,6 +319,46 @@ TEST(Validate, SettingsErrors) {
     expect_warning(scene, {"clamp_direct"});
 }
 
+TEST(Validate, FilterSettingsAtTheirLimits) {
+    FilterSettings s;
+    s.firefly_density = 0, s.luminance_sensitivity = 0, s.filter_size = 1, s.texture_width = 1e-4f;
+    EXPECT_EQ(all(validate(s)), "");
+    EXPECT_EQ(s.filter_size, 1);
+    s.filter_size = k_largest_filter;
+    EXPECT_EQ(all(validate(s)), "");
+    // A kernel has a middle.
+    s.filter_size = 10;
+    EXPECT_EQ(all(validate(s)), "");
+    EXPECT_EQ(s.filter_size, 11);
+    for (const int size : {0, -5, 64, 2147483647}) {
+        s.filter_size = size;
+        EXPECT_NE(all(validate(s)).find("filter_size"), std::string::npos) << size;
+        EXPECT_EQ(s.filter_size, size < 1 ? 1 : 63);
+    }
+}
+
+TEST(Validate, FilterSettingsOverTheirLimits) {
+    for (const float bad : {k_nan, -1.0f, std::numeric_limits<float>::infinity()}) {
+        FilterSettings s;
+        s.firefly_density = s.luminance_sensitivity = s.texture_width = bad;
+        const std::string messages = all(validate(s));
+        for (const char* key : {"firefly_density", "luminance_sensitivity", "texture_width"})
+            EXPECT_NE(messages.find(key), std::string::npos) << messages;
+        EXPECT_TRUE(s.firefly_density >= 0 && std::isfinite(s.firefly_density));
+        EXPECT_TRUE(s.luminance_sensitivity >= 0 && s.luminance_sensitivity < 1);
+        EXPECT_TRUE(s.texture_width > 0 && std::isfinite(s.texture_width));
+    }
+    SceneDesc scene = good_scene();
+    scene.settings.filter.filter_size = 99;
+    scene.settings.adaptive_threshold = k_nan;
+    scene.settings.adaptive_min_samples = -1;
+    expect_warning(scene, {"filter_size"});
+    scene.settings.adaptive_threshold = k_nan;
+    expect_warning(scene, {"adaptive_threshold"});
+    scene.settings.adaptive_min_samples = -1;
+    expect_warning(scene, {"adaptive_min_samples"});
+}
+
 TEST(Validate, OnePixelIsFine) {
     SceneDesc scene = good_scene();
     scene.settings.width = scene.settings.height = 1;
