@@ -112,7 +112,6 @@ struct Session::Impl {
     void filter_at_end();
     /// Bytes for progress and statistics, which must not look at the film while it grows.
     void measure_film();
-    void count_samples();
     /// What all threads have counted.
     path::Counters work() const;
     /// This thread's memory, ready for a batch.

@@ -35,7 +35,10 @@ void Session::Impl::add_samples(const path::BatchResult& r, Worker& worker) {
     worker.writer.open(*film);
     for (int i = 0; i < r.n; ++i) {
         if (r.sample[i] < first) continue;
-        if (!worker.writer.add(r.x[i], r.y[i], sample_of(r, i), r.sample[i] == first)) ++worker.dropped;
+        const film::Sample s = sample_of(r, i);
+        const bool added = worker.writer.add(r.x[i], r.y[i], s, r.sample[i] == first);
+        if (!added) ++worker.dropped;
+        if (added && adaptive.on()) adaptive.add(r.x[i], r.y[i], s, r.sample[i]);
     }
     worker.writer.close();
 }
@@ -82,18 +85,8 @@ void Session::Impl::filter_at_end() {
 }
 
 void Session::Impl::measure_film() {
-    film_bytes = film->memory_bytes();
+    film_bytes = film->memory_bytes() + adaptive.memory_bytes();
     cluster_bytes = film->clusters().memory_bytes();
-}
-
-void Session::Impl::count_samples() {
-    if (!adaptive.on()) return;
-    std::uint64_t sum = 0;
-    for (int y = 0; y < region.height; ++y) {
-        for (int x = 0; x < region.width; ++x) sum += film->samples(x, y);
-    }
-    const std::lock_guard lock(state_mutex);
-    mean_samples = static_cast<double>(sum) / (static_cast<double>(region.width) * region.height);
 }
 
 }  // namespace cardioid::render

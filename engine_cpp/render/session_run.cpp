@@ -40,6 +40,7 @@ void Session::Impl::finish(Phase p, const std::string& text) {
         message = text;
         finished = true;
         elapsed_seconds = seconds_since(started);
+        mean_samples = adaptive.mean_samples();
         cpu_total = cpu_seconds() - cpu_at_start;
         if (p != Phase::failed && render_started != Clock::time_point{}) render_seconds = seconds_since(render_started);
         for (const Worker& w : workers) {
@@ -67,7 +68,6 @@ void Session::Impl::run() {
             render();
             filter_at_end();
             measure_film();
-            count_samples();
         });
         finish(cancelled ? Phase::cancelled : Phase::done, "");
     } catch (const trace::BuildCancelled&) { finish(Phase::cancelled, ""); } catch (const std::bad_alloc&) {
@@ -127,7 +127,7 @@ void Session::Impl::after_pass(int end) {
     const int taken = end - desc->settings.first_sample;
     if (taken <= 0) return;
     if (adaptive.due(end, taken)) {
-        adaptive.update(*film);
+        adaptive.update();
         unfinished_pixels = adaptive.active_pixels();
     }
     // Tiles without active pixels were not rendered, and are done all the same.

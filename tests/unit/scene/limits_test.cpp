@@ -27,6 +27,26 @@ TEST(Limits, TheCropCountsNotTheFrame) {
     EXPECT_LT(memory_estimate(scene).film, 1 << 20);
 }
 
+TEST(Limits, WhatTheFilterNeedsCounts) {
+    SceneDesc scene;
+    scene.settings.width = scene.settings.height = 1000;
+    scene.settings.samples = 64;
+    const auto per_pixel = [&] { return memory_estimate(scene).film / 1'000'000; };
+    const std::int64_t recorded = per_pixel();
+    scene.settings.samples = 1;
+    EXPECT_LT(per_pixel(), recorded) << "a sample is one cluster in a layer at most";
+    scene.settings.samples = 64;
+    scene.settings.record_clusters = false;
+    const std::int64_t plain = per_pixel();
+    EXPECT_GT(recorded, plain + 500);
+    EXPECT_LT(recorded, plain + 3 * 8 * 32 + 100) << "lists of eight in three layers, and three passes";
+    scene.settings.filter.use_filter = true;
+    EXPECT_EQ(per_pixel(), recorded) << "the filter needs clusters whatever is said";
+    scene.settings.record_clusters = true;
+    scene.settings.adaptive_threshold = 0.01f;
+    EXPECT_GT(per_pixel(), recorded);
+}
+
 TEST(Limits, WithoutALimitTheMachineDecides) {
     EXPECT_GT(machine_memory(), 1 << 20);
     SceneDesc scene;
