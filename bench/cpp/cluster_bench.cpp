@@ -6,9 +6,12 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -34,27 +37,62 @@ film::Sample random_sample(std::mt19937& random) {
     return s;
 }
 
+/// Results of a batch of paths, an array for each value, as the tracer leaves them.
+struct Batch {
+    static constexpr int k_paths = 1024, k_padded = k_paths + 64, k_values = sizeof(film::Sample) / sizeof(float);
+    std::vector<float> values = std::vector<float>(k_values * k_padded);
+    void put(const film::Sample& s, int path) {
+        const auto v = std::bit_cast<std::array<float, k_values>>(s);
+        for (int i = 0; i < k_values; ++i)
+            values[static_cast<std::size_t>(i * k_padded + path)] = v[static_cast<std::size_t>(i)];
+    }
+    film::Sample get(int path) const {
+        const float* from = values.data() + path;
+        film::Sample s;
+        const auto next = [&] { return *std::exchange(from, from + k_padded); };
+        const auto row = [&](float(&rgb)[3]) {
+            for (float& c : rgb) c = next();
+        };
+        for (auto& c : s.radiance) row(c);
+        row(s.unfiltered);
+        for (auto& l : s.layers) row(l.radiance), row(l.incident);
+        row(s.detail);
+        s.mirrored_detail = next();
+        row(s.feature_normal);
+        s.feature_depth = next();
+        s.feature_depth_squared = next();
+        s.alpha = next();
+        s.depth = next();
+        row(s.normal);
+        return s;
+    }
+};
+
 /// In the order in which they are rendered: blocks of 8 × 8, in each a pixel's samples of the pass after each other.
-void add_pass(film::Film& film, const std::vector<film::Sample>& samples, int first, int count) {
+void add_pass(film::Film& film, const std::vector<Batch>& batches, int first, int count) {
     film::FilmWriter writer;
     writer.open(film);
-    std::size_t at = static_cast<std::size_t>(first) * 7919;
+    int at = first * 7919;
     for (int by = 0; by < k_side; by += film::k_block) {
         for (int bx = 0; bx < k_side; bx += film::k_block) {
             for (int i = 0; i < film::k_block * film::k_block; ++i) {
-                for (int s = first; s < first + count; ++s)
-                    writer.add(bx + i % film::k_block, by + i / film::k_block, samples[at++ % samples.size()], s == 0);
+                for (int s = first; s < first + count; ++s, ++at) {
+                    const Batch& batch = batches[static_cast<std::size_t>(at / Batch::k_paths) % batches.size()];
+                    writer.add(bx + i % film::k_block, by + i / film::k_block, batch.get(at % Batch::k_paths), s == 0);
+                }
             }
         }
     }
     writer.close();
 }
 
-std::vector<film::Sample> some_samples() {
+std::vector<Batch> some_samples() {
     std::mt19937 random(1);
-    std::vector<film::Sample> samples(16381);
-    for (film::Sample& s : samples) s = random_sample(random);
-    return samples;
+    std::vector<Batch> batches(5);
+    for (Batch& b : batches) {
+        for (int i = 0; i < Batch::k_paths; ++i) b.put(random_sample(random), i);
+    }
+    return batches;
 }
 
 scene::Settings settings(bool clusters) {
@@ -65,7 +103,7 @@ scene::Settings settings(bool clusters) {
 }
 
 void run(benchmark::State& state, bool clusters) {
-    const std::vector<film::Sample> samples = some_samples();
+    const std::vector<Batch> samples = some_samples();
     const int count = static_cast<int>(state.range(0)), total = static_cast<int>(state.range(1));
     double bytes = 0, lists = 0;
     for (auto _ : state) {
@@ -88,7 +126,7 @@ BENCHMARK(with_clusters)->Args({1, 16})->Args({2, 16})->Args({4, 16})->Args({8, 
 BENCHMARK(without_clusters)->Args({1, 16})->Args({2, 16})->Args({8, 16})->Args({8, 256});
 
 void read_all(benchmark::State& state) {
-    const std::vector<film::Sample> samples = some_samples();
+    const std::vector<Batch> samples = some_samples();
     film::Film film(settings(true));
     add_pass(film, samples, 0, k_samples);
     for (auto _ : state) {
@@ -109,7 +147,7 @@ void read_all(benchmark::State& state) {
 BENCHMARK(read_all);
 
 void save_and_load(benchmark::State& state) {
-    const std::vector<film::Sample> samples = some_samples();
+    const std::vector<Batch> samples = some_samples();
     film::Film film(settings(true));
     add_pass(film, samples, 0, k_samples);
     const auto path = std::filesystem::temp_directory_path() / "cluster_bench.cardioid";

@@ -26,117 +26,122 @@ void join(Cluster& sums, const Cluster& other) {
     sums.samples += other.samples;
 }
 
-/// Moves k_max_clusters elements; a size that the compiler knows makes it a few instructions.
-template <class T>
-void move_list(T* from, T* to) {
-    std::memmove(to, from, sizeof(T) * k_max_clusters);
+/// Moves k_max_clusters of them; a size that the compiler knows makes it a few instructions.
+void move(const Cluster* from, Cluster* to) { std::memmove(to, from, sizeof(Cluster) * k_max_clusters); }
+
+/// Copies n and up to k_copied - 1 more; returns the end of the n.
+Cluster* copy(const Cluster* from, int n, Cluster* to) {
+    for (int i = 0; i < n; i += k_copied) std::memcpy(to + i, from + i, sizeof(Cluster) * k_copied);
+    return to + n;
 }
+
+float gradient(const Cluster& c) { return (c.max - c.min) / std::max(static_cast<float>(c.samples - 1), 1.0f); }
 
 }  // namespace
 
-void ClusterEditor::open(ClusterStore& store, int x, int y) {
-    const int block = y / k_block * store.columns_ + x / k_block;
-    if (store_ == &store && block_ == block) return;
-    close();
-    store_ = &store;
-    block_ = block;
+ClusterEditor::Place ClusterEditor::place(int pixel) const {
+    if (changed_[pixel].begin != nullptr) return changed_[pixel];
+    const ClusterStore::Block& block = store_->blocks_[static_cast<std::size_t>(block_)];
+    const std::uint16_t* begin = block.begin + pixel * k_layers;
+    Place p{.begin = block.clusters.get() + begin[0]};
+    for (int l = 0; l < k_layers; ++l) p.count[l] = static_cast<std::uint8_t>(begin[l + 1] - begin[l]);
+    return p;
 }
 
-void ClusterEditor::unpack(std::size_t index) {
-    const ClusterStore::Block& from = store_->blocks_[static_cast<std::size_t>(block_)];
-    List& list = lists_[index];
-    unpacked_[index] = true;
-    std::fill(std::begin(list.high), std::end(list.high), k_infinite);
-    std::fill(std::begin(list.low), std::end(list.low), k_infinite);
-    list.high[0] = -k_infinite;
-    list.count = list.unused = static_cast<std::uint8_t>(from.begin[index + 1] - from.begin[index]);
-    for (std::uint8_t i = 0; i < list.count; ++i) {
-        const Cluster& c = from.clusters[from.begin[index] + i];
-        list.sums[i] = c;
-        list.low[i] = c.min;
-        list.high[i + 1] = c.max;
-        list.place[i] = i;
+void ClusterEditor::turn_to(int pixel) {
+    put_back();
+    // Pixels that are met again and again take up new room each time.
+    if (packed_size_ > (k_pixels - 1) * k_pixel_clusters) {
+        ClusterStore& store = *store_;
+        const int block = block_;
+        close();
+        store_ = &store;
+        block_ = block;
     }
+    const Place p = place(pixel);
+    const Cluster* from = p.begin;
+    for (int l = 0; l < k_layers; ++l) {
+        lists_[l].count = p.count[l];
+        copy(from, p.count[l], lists_[l].clusters);
+        from += p.count[l];
+    }
+    pixel_ = pixel;
+}
+
+void ClusterEditor::put_back() {
+    if (pixel_ < 0) return;
+    Place& p = changed_[pixel_];
+    Cluster* to = packed_ + packed_size_;
+    p.begin = to;
+    for (int l = 0; l < k_layers; ++l) {
+        p.count[l] = static_cast<std::uint8_t>(lists_[l].count);
+        to = copy(lists_[l].clusters, lists_[l].count, to);
+    }
+    packed_size_ = static_cast<int>(to - packed_);
+    pixel_ = -1;
 }
 
 void ClusterEditor::close() {
     if (store_ == nullptr) return;
+    put_back();
     ClusterStore::Block& block = store_->blocks_[static_cast<std::size_t>(block_)];
+    int total = 0;
+    for (int pixel = 0; pixel < k_pixels; ++pixel) total += place(pixel).total();
+    auto packed = ClusterStore::allocate(static_cast<std::size_t>(total));
     std::uint16_t begin[k_block_lists + 1] = {};
-    for (std::size_t i = 0; i < k_block_lists; ++i) {
-        const int count = unpacked_[i] ? lists_[i].count : block.begin[i + 1] - block.begin[i];
-        begin[i + 1] = static_cast<std::uint16_t>(begin[i] + count);
-    }
-    auto packed = std::make_unique_for_overwrite<Cluster[]>(begin[k_block_lists]);
-    for (std::size_t i = 0; i < k_block_lists; ++i) {
-        Cluster* to = packed.get() + begin[i];
-        if (!unpacked_[i]) {
-            std::copy(block.clusters.get() + block.begin[i], block.clusters.get() + block.begin[i + 1], to);
-            continue;
-        }
-        const List& list = lists_[i];
-        for (int c = 0; c < list.count; ++c) {
-            to[c] = list.sums[list.place[c]];
-            to[c].min = list.low[c];
-            to[c].max = list.high[c + 1];
-        }
-        unpacked_[i] = false;
+    Cluster* to = packed.get();
+    for (int pixel = 0; pixel < k_pixels; ++pixel) {
+        const Place p = place(pixel);
+        to = copy(p.begin, p.total(), to);
+        std::uint16_t* at = begin + pixel * k_layers;
+        for (int l = 0; l < k_layers; ++l) at[l + 1] = static_cast<std::uint16_t>(at[l] + p.count[l]);
+        changed_[pixel].begin = nullptr;
     }
     block.clusters = std::move(packed);
     std::copy(std::begin(begin), std::end(begin), block.begin);
     store_ = nullptr;
     block_ = -1;
+    packed_size_ = 0;
 }
 
-void ClusterEditor::add(std::size_t index, const float (&radiance)[3], float y, std::uint32_t taken) {
-    if (!unpacked_[index]) unpack(index);
-    List& list = lists_[index];
+void ClusterEditor::add(List& list, const float (&radiance)[3], float incident, std::uint32_t taken) {
+    Cluster* const clusters = list.clusters;
     int at = 0;
-    for (int i = 1; i <= k_max_clusters; ++i) at += list.high[i] < y;
+    for (int i = 0; i < k_max_clusters; ++i)
+        at += static_cast<int>(clusters[i].max < incident) & static_cast<int>(i < list.count);
+    const float infinite = std::numeric_limits<float>::infinity();
     // Inside a cluster `above` is not above 0.
-    const float below = y - list.high[at], above = list.low[at] - y;
-    const float reach = taken < k_first_batch ? 0.0f : k_join * y;
+    const float below = at > 0 ? incident - clusters[at - 1].max : infinite;
+    const float above = at < list.count ? clusters[at].min - incident : infinite;
+    const float reach = taken < k_first_batch ? 0.0f : k_join * incident;
     if (std::min(below, above) <= reach) {
-        const int i = below <= above ? at - 1 : at;
-        list.low[i] = std::min(list.low[i], y);
-        list.high[i + 1] = std::max(list.high[i + 1], y);
-        join(list.sums[list.place[i]], radiance, y);
+        Cluster& c = clusters[below <= above ? at - 1 : at];
+        c.min = std::min(c.min, incident);
+        c.max = std::max(c.max, incident);
+        join(c, radiance, incident);
         return;
     }
-    insert(list, at, y);
-    join(list.sums[list.place[at]], radiance, y);
-    if (list.count > k_max_clusters) merge(list);
-}
-
-void ClusterEditor::insert(List& list, int at, float y) {
-    move_list(list.low + at, list.low + at + 1);
-    move_list(list.high + at + 1, list.high + at + 2);
-    move_list(list.place + at, list.place + at + 1);
-    list.low[at] = list.high[at + 1] = y;
-    list.place[at] = list.unused;
-    list.sums[list.unused] = {};
-    list.unused = ++list.count;
+    move(clusters + at, clusters + at + 1);
+    clusters[at] = {.min = incident, .max = incident};
+    join(clusters[at], radiance, incident);
+    if (++list.count > k_max_clusters) merge(list);
 }
 
 /// Makes one of the two neighbours that are most alike (thesis 6.7 as spec 4 reads it; its factor 1/max_n changes no order).
 void ClusterEditor::merge(List& list) {
-    float gradient[k_max_clusters + 1];
-    for (int i = 0; i <= k_max_clusters; ++i) {
-        const auto steps = static_cast<float>(list.sums[list.place[i]].samples - 1);
-        gradient[i] = (list.high[i + 1] - list.low[i]) / std::max(steps, 1.0f);
-    }
+    Cluster* const clusters = list.clusters;
     int best = 0;
-    float least = k_infinite;
+    float least = std::numeric_limits<float>::infinity(), here = gradient(clusters[0]);
     for (int i = 0; i < k_max_clusters; ++i) {
-        const float m =
-            k_gradient_weight * std::abs(gradient[i] - gradient[i + 1]) + (list.low[i + 1] - list.high[i + 1]);
+        const float next = gradient(clusters[i + 1]);
+        const float m = k_gradient_weight * std::abs(here - next) + (clusters[i + 1].min - clusters[i].max);
         if (m < least) least = m, best = i;
+        here = next;
     }
-    list.unused = list.place[best + 1];
-    join(list.sums[list.place[best]], list.sums[list.unused]);
-    move_list(list.low + best + 2, list.low + best + 1);
-    move_list(list.high + best + 2, list.high + best + 1);
-    move_list(list.place + best + 2, list.place + best + 1);
+    Cluster& a = clusters[best];
+    a.max = clusters[best + 1].max;
+    join(a, clusters[best + 1]);
+    move(clusters + best + 2, clusters + best + 1);
     --list.count;
 }
 

@@ -12,6 +12,8 @@
 
 namespace cardioid::film {
 
+/// Clusters are copied by so many at once: arrays that are read from have room for it.
+inline constexpr int k_copied = 4;
 inline constexpr int k_block = 8;
 inline constexpr int k_block_lists = k_block * k_block * k_layers;
 /// The luminance of a sample may lie this share of itself from a cluster's bound and still join it (μ of thesis 6.2.1).
@@ -46,8 +48,9 @@ public:
 private:
     friend class ClusterEditor;
     friend class FilmFile;
+    static std::unique_ptr<Cluster[]> allocate(std::size_t n);
     struct Block {
-        std::unique_ptr<Cluster[]> clusters;
+        std::unique_ptr<Cluster[]> clusters;          ///< k_copied - 1 more than there are
         std::uint16_t begin[k_block_lists + 1] = {};  ///< of each list; the last one is the end
     };
     int width_ = 0, height_ = 0, columns_ = 0;
@@ -57,46 +60,56 @@ private:
 /// Whether a list is one that an editor could have made of at most `samples` samples.
 bool valid(std::span<const Cluster> list, std::uint32_t samples);
 
-/// A thread's working memory: one block, of which the lists that get samples are unpacked. Blocks are owned by one thread at a
-/// time.
+/// A thread's working memory: a block, and the lists of one of its pixels spread out. Blocks are owned by one thread at a time.
+/// Quick where the samples of a pixel follow each other.
 class ClusterEditor {
 public:
     /// Packs the block that was open, if another one.
-    void open(ClusterStore& store, int x, int y);
+    void open(ClusterStore& store, int x, int y) {
+        const int block = y / k_block * store.columns_ + x / k_block;
+        if (store_ == &store && block_ == block) return;
+        close();
+        store_ = &store;
+        block_ = block;
+    }
     /// Adds to a pixel of the open block. `taken`: samples that the pixel had before. Returns false for a sample that belongs to
     /// no cluster: luminance of I not above 0. Sums of lists are those of the samples, whatever their order.
     bool add(int x, int y, int layer, const LayerSample& sample, std::uint32_t taken) {
-        const float y_of_i = luminance(sample.incident);
-        if (!(y_of_i > 0 && y_of_i <= k_largest)) return false;
-        add(list_index(x, y, layer), sample.radiance, y_of_i, taken);
+        const float incident = luminance(sample.incident);
+        if (!(incident > 0 && incident <= std::numeric_limits<float>::max())) return false;
+        const int pixel = y % k_block * k_block + x % k_block;
+        if (pixel != pixel_) turn_to(pixel);
+        add(lists_[layer], sample.radiance, incident, taken);
         return true;
     }
     /// Packs what is open.
     void close();
 
 private:
-    static constexpr float k_infinite = std::numeric_limits<float>::infinity();
-    static constexpr float k_largest = std::numeric_limits<float>::max();
-    static constexpr int k_room = 2 * (k_max_clusters + 1);  ///< so that moves of k_max_clusters stay inside
-
-    /// Bounds lie apart from sums, which stay where they are when a cluster is put between others. Behind the last cluster bounds
-    /// are infinite.
+    static constexpr int k_pixels = k_block * k_block;
+    static constexpr int k_pixel_clusters = k_layers * k_max_clusters;
     struct List {
-        float high[k_room];  ///< [i + 1] of cluster i; [0] is -infinite
-        float low[k_room];
-        std::uint8_t place[k_room];  ///< of cluster i in sums
-        std::uint8_t count, unused;  ///< `unused`: a free place in sums
-        Cluster sums[k_max_clusters + 1];
+        int count = 0;
+        Cluster clusters[2 * k_max_clusters + 1];  ///< one more than is kept, and room to move k_max_clusters at once
     };
-    void add(std::size_t list, const float (&radiance)[3], float y, std::uint32_t taken);
-    void unpack(std::size_t list);
-    static void insert(List& list, int at, float y);
+    /// Where the clusters of a pixel are.
+    struct Place {
+        const Cluster* begin = nullptr;
+        std::uint8_t count[k_layers] = {};
+        int total() const { return count[0] + count[1] + count[2]; }
+    };
+    Place place(int pixel) const;
+    void turn_to(int pixel);
+    void put_back();
+    static void add(List& list, const float (&radiance)[3], float incident, std::uint32_t taken);
     static void merge(List& list);
 
     ClusterStore* store_ = nullptr;
-    int block_ = -1;
-    bool unpacked_[k_block_lists] = {};
-    List lists_[k_block_lists];
+    int block_ = -1, pixel_ = -1;
+    List lists_[k_layers];     ///< of the pixel
+    Place changed_[k_pixels];  ///< of pixels that got samples, in `packed_`; begin is null for the others
+    int packed_size_ = 0;
+    Cluster packed_[k_pixels * k_pixel_clusters + k_copied];
 };
 
 }  // namespace cardioid::film

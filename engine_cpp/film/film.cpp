@@ -18,10 +18,13 @@ void accumulate(float (&sum)[3], const float (&value)[3]) {
 
 float total(const float (&c)[3]) { return c[0] + c[1] + c[2]; }
 
-/// Finite exactly where every value of the sample is (or they cancel out, which finite values of such a size cannot matter for).
+/// Sums of 2^24 samples below this are finite.
+constexpr float k_largest = 1e30f;
+
+/// Small exactly where every value of the sample is, or where large ones cancel out.
 float checksum(const Sample& s) {
-    float sum = s.alpha + s.depth + total(s.normal) + total(s.unfiltered) + total(s.detail) + total(s.feature_normal) +
-                s.feature_depth + s.feature_depth_squared;
+    float sum = s.alpha + s.depth + total(s.normal) + total(s.unfiltered) + total(s.detail) + s.mirrored_detail +
+                total(s.feature_normal) + s.feature_depth + s.feature_depth_squared;
     for (const auto& c : s.radiance) sum += total(c);
     for (const LayerSample& l : s.layers) sum += total(l.radiance) + total(l.incident);
     return sum;
@@ -53,7 +56,7 @@ Film::Film(const scene::Settings& settings)
 }
 
 bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
-    if (!std::isfinite(checksum(sample))) return false;
+    if (!(std::abs(checksum(sample)) <= k_largest)) return false;
     x -= film_->region_.x;
     y -= film_->region_.y;
     const std::size_t i = static_cast<std::size_t>(y) * film_->region_.width + static_cast<std::size_t>(x);
@@ -68,6 +71,8 @@ bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
         accumulate(p.feature_normal, sample.feature_normal);
         p.feature_depth += sample.feature_depth;
         p.feature_depth_squared += sample.feature_depth_squared;
+        p.mirrored_detail += sample.mirrored_detail;
+        p.mirrored_detail_squared += sample.mirrored_detail * sample.mirrored_detail;
         editor_.open(film_->clusters_, x, y);
         for (int l = 0; l < k_layers; ++l) {
             const bool kept = editor_.add(x, y, l, sample.layers[l], p.samples);
@@ -95,6 +100,10 @@ PixelFeatures Film::features(int x, int y) const {
     for (int k = 0; k < 3; ++k) f.normal[k] = p.feature_normal[k] / weight;
     f.depth = p.feature_depth / weight;
     f.depth_variance = std::max(0.0f, p.feature_depth_squared / weight - f.depth * f.depth);
+    const float mirrored = p.mirrored_detail * inv;
+    if (p.samples > 1)
+        f.detail_variance =
+            std::max(0.0f, p.mirrored_detail_squared * inv - mirrored * mirrored) / static_cast<float>(p.samples - 1);
     return f;
 }
 
@@ -147,6 +156,21 @@ Frame Film::make_frame() const {
     return f;
 }
 
+float Film::class_mean(std::size_t i, int path_class, int channel) const {
+    float mean = pixels_[i].radiance[path_class][channel] / static_cast<float>(pixels_[i].samples);
+    if (!photons_.empty() && path_class > 0) mean += photons_[i].classes[path_class - 1][channel];
+    return mean * exposure_;
+}
+
+void Film::raw(int x, int y, float (&rgb)[3]) const {
+    const std::size_t i = static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x);
+    for (int k = 0; k < 3; ++k) {
+        rgb[k] = 0;
+        if (pixels_[i].samples == 0) continue;
+        for (int c = 0; c < k_classes; ++c) rgb[k] += class_mean(i, c, k);
+    }
+}
+
 void Film::resolve(const Region& part, Frame& frame, bool keep_combined) const {
     for (int y = part.y; y < part.y + part.height; ++y) {
         for (int x = part.x; x < part.x + part.width; ++x) {
@@ -159,9 +183,7 @@ void Film::resolve(const Region& part, Frame& frame, bool keep_combined) const {
             for (int k = 0; k < 3; ++k) {
                 float sum = 0;
                 for (int c = 0; c < k_classes; ++c) {
-                    float mean = p.radiance[c][k] * inv;
-                    if (!photons_.empty() && c > 0) mean += photons_[i].classes[c - 1][k];
-                    mean *= exposure_;
+                    const float mean = class_mean(i, c, k);
                     frame.passes[pass_classes + c].data[3 * i + k] = mean;
                     sum += mean;
                 }

@@ -21,6 +21,7 @@ struct Sample {
     float unfiltered[3] = {};      ///< the part of it that is in no layer: D1 and photons
     LayerSample layers[k_layers];  ///< the rest
     float detail[3] = {};          ///< albedo of the D lobes at x_d × throughput before it; 0 where there is none
+    float mirrored_detail = 0;     ///< luminance of the part of `detail` that lies behind specular lobes
     /// Normal and depth along the view axis at x_d, and depth²; each × luminance(detail).
     float feature_normal[3] = {}, feature_depth = 0, feature_depth_squared = 0;
     float alpha = 1;
@@ -38,7 +39,8 @@ struct PixelFeatures {
     float detail[3] = {};
     float normal[3] = {};  ///< mean of unit vectors: shorter where they differ; zero: nothing with a D lobe was seen
     float depth = 0;       ///< mean; 0 where nothing was seen
-    float depth_variance = 0;  ///< of the samples, not of their mean
+    float depth_variance = 0;   ///< of the samples, not of their mean
+    float detail_variance = 0;  ///< of the mean of luminance(detail), as far as mirrors and glass make it noisy
 };
 
 class FilmWriter;
@@ -65,6 +67,8 @@ public:
 
     /// An empty picture of the region's size: Combined, Depth, Normal, D1 … C2; with clusters also Raw, Filtered, Withheld.
     Frame make_frame() const;
+    /// Raw light of a pixel with exposure, as resolve() writes it.
+    void raw(int x, int y, float (&rgb)[3]) const;
     /// Writes the raw means of the pixels inside `part` (frame coordinates) into `frame`: Combined (unless `keep_combined`), Raw
     /// and the classes.
     void resolve(const Region& part, Frame& frame, bool keep_combined = false) const;
@@ -81,7 +85,8 @@ private:
     struct Pixel {
         float radiance[k_classes][3] = {};
         float unfiltered[3] = {};
-        float detail[3] = {}, feature_normal[3] = {}, feature_depth = 0, feature_depth_squared = 0;
+        float detail[3] = {}, mirrored_detail = 0, mirrored_detail_squared = 0;
+        float feature_normal[3] = {}, feature_depth = 0, feature_depth_squared = 0;
         float alpha = 0, depth = 1e10f;
         float normal[3] = {0, 0, 0};
         std::uint32_t samples = 0;
@@ -95,6 +100,8 @@ private:
     const Pixel& pixel(int x, int y) const {
         return pixels_[static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x)];
     }
+    /// With exposure; channel of a pixel that has samples.
+    float class_mean(std::size_t pixel, int path_class, int channel) const;
     Region region_;
     float exposure_;
     bool transparent_;
@@ -111,7 +118,7 @@ class FilmWriter {
 public:
     void open(Film& film) { film_ = &film; }
     /// x, y in the whole frame. `first`: this is the pixel's first sample, which gives the Depth pass its value (depth is not
-    /// averaged). Returns false for a sample with a value that is not finite: it is dropped.
+    /// averaged). Returns false for a sample with a value that is not finite or beyond 1e30: it is dropped.
     bool add(int x, int y, const Sample& sample, bool first);
     /// Before another thread may read or write the pixels.
     void close();

@@ -240,7 +240,7 @@ void FilmFile::read_clusters(ClusterStore& store, std::uint64_t total, Reader& i
         }
         sum += block.begin[k_block_lists];
         if (sum > total) break;
-        block.clusters = std::make_unique_for_overwrite<Cluster[]>(block.begin[k_block_lists]);
+        block.clusters = ClusterStore::allocate(block.begin[k_block_lists]);
         in.read(std::as_writable_bytes(std::span(block.clusters.get(), block.begin[k_block_lists])));
     }
     if (sum != total) throw SceneError("is damaged: its clusters are not as many as it says");

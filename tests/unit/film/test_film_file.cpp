@@ -292,19 +292,20 @@ TEST_F(FilmFileHeader, AbsurdFilterSettingsAreRepaired) {
 }
 
 TEST_F(FilmFileTest, MoreThanMemoryIsRefusedBeforeItIsAllocated) {
-    // A sparse file of the promised length: 65 536² pixels of 128 bytes.
+    // A sparse file of the promised length, 65 536² pixels.
     FilmFile::save(Film([] {
                        scene::Settings s = settings_of(65536, 1);
                        s.record_clusters = false;
                        return s;
                    }()),
                    path_);
-    std::string bytes = read().substr(0, 600);
+    std::string bytes = read();
+    const std::uint64_t row = bytes.size();
     const std::size_t at = bytes.find("[0,0,65536,1]");
     ASSERT_NE(at, std::string::npos);
     std::uint64_t json = 0;
     std::memcpy(&json, bytes.data() + 16, 8);
-    // The end of the JSON is blank enough for four more digits, or has sixteen more blanks.
+    const std::uint64_t per_pixel = (row - 32 - json - 8) / 65536;
     bytes.resize(32 + json);
     bytes.replace(at, 13, "[0,0,65536,65536]");
     bytes.resize(bytes.size() + (16 - bytes.size() % 16) % 16, ' ');
@@ -312,7 +313,7 @@ TEST_F(FilmFileTest, MoreThanMemoryIsRefusedBeforeItIsAllocated) {
     std::memcpy(bytes.data() + 16, &json, 8);
     write(bytes);
     std::error_code failed;
-    fs::resize_file(path_, bytes.size() + (std::uint64_t{65536} * 65536) * 128 + 8, failed);
+    fs::resize_file(path_, bytes.size() + (std::uint64_t{65536} * 65536) * per_pixel + 8, failed);
     if (failed) GTEST_SKIP() << "no sparse files here";
     expect_error("more than this machine's memory");
 }
