@@ -14,9 +14,10 @@ namespace cardioid::filter {
 /// RGB of the film's region, bottom row first, exposure included.
 struct Filtered {
     int width = 0, height = 0;
-    std::vector<float> shown;     ///< all light: what is in no layer + the filtered layers
-    std::vector<float> withheld;  ///< raw light of rejected clusters: raw = shown + withheld exactly with FilterMethod::none
-    bool complete = false;        ///< false: stopped
+    std::vector<float> shown;  ///< all light: what is in no layer + the filtered layers
+    std::vector<float>
+        withheld;           ///< raw light of rejected clusters: raw = shown + withheld exactly with FilterMethod::none
+    bool complete = false;  ///< false: stopped
     RejectionStats rejection;
 };
 

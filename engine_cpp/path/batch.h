@@ -99,10 +99,11 @@ struct alignas(64) BatchResult {
     PathFloats unfiltered[3];     ///< the part of the radiance that is in no layer: D1 and photons
     /// R and I of the layers of incident light (film/cluster.h); with BatchRequest::layers only, as what follows.
     PathFloats layer_radiance[k_layers][3], layer_incident[k_layers][3];
-    PathFloats detail[3];         ///< albedo of the D lobes at x_d × throughput before it
+    PathFloats detail[3];  ///< albedo of the D lobes at x_d × throughput before it
     PathFloats feature_normal[3], feature_depth, feature_depth_squared;  ///< at x_d, × luminance(detail)
-    PathFloats caustic_hits;      ///< luminance of C1 as if camera paths alone brought it; with photons only
-    PathInts x, y, sample;        ///< pixel in the frame and number of the sample
+    PathFloats mirrored_detail;  ///< luminance of the part of `detail` that lies behind specular lobes
+    PathFloats caustic_hits;     ///< luminance of C1 as if camera paths alone brought it; with photons only
+    PathInts x, y, sample;       ///< pixel in the frame and number of the sample
 };
 
 /// Counted facts; the sums over threads go to the statistics.
@@ -238,7 +239,7 @@ struct alignas(64) Scratch {
     nodes::Scratch registers;
     PathInts order;  ///< paths sorted by material
     GatherLists gather;
-    PathFloats demodulation[3];  ///< by path: I over R of what arrives at x_d along the sampled direction
+    PathFloats demodulation[3];         ///< by path: I over R of what arrives at x_d along the sampled direction
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them
     std::int32_t* bins = nullptr;       ///< material_count + 2 counters, owned by the caller
     Counters counters;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one place that chooses the lane width for this processor.
 #include "path/batch.h"
+#include "simd/width.h"
 
 namespace cardioid {
 namespace isa_w1 {
@@ -21,26 +22,7 @@ void trace_batch(const path::BatchRequest&, path::Scratch&, path::BatchResult&);
 
 namespace path {
 
-int best_width() {
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw")) {
-        return 16;
-    }
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2")) return 8;
-    return 1;
-}
-
-namespace {
-/// The kernel for `width` lanes, at most the machine's best; 0: the best.
-template <class Kernel>
-Kernel by_width(int width, Kernel w1, Kernel w8, Kernel w16) {
-    const int best = best_width();
-    if (width == 0 || width > best) width = best;
-    if (width == 16) return w16;
-    return width == 8 ? w8 : w1;
-}
-}  // namespace
+int best_width() { return cardioid::best_width(); }
 
 TraceBatch select_trace_batch(int width) {
     return by_width<TraceBatch>(width, isa_w1::trace_batch, isa_w8::trace_batch, isa_w16::trace_batch);

@@ -38,8 +38,7 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     NextPath n;
     n.depth = count_bounce(depth, c);
     const Int state = step_state(state_of(flags), c.specular), since_d = scatterings_since_d(flags);
-    const Int layer =
-        select((since_d > Int(0)) | ~c.specular, min(since_d + Int(1), Int(path::k_layers)), Int(0));
+    const Int layer = select((since_d > Int(0)) | ~c.specular, min(since_d + Int(1), Int(path::k_layers)), Int(0));
     const Mask last = over_limits(settings, n.depth);
     n.flags = ray_kind(c) | (state << path::k_state_shift) | (layer << path::k_layer_shift) |
               select(last, Int(path::k_flag_last), Int(0));
@@ -215,8 +214,8 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Spectrum transparency = load_rgb(out.transparency, i);
         DetailSum detail;
         const bool wants_detail = request.layers && any(lanes & (scatterings_since_d(flags) == Int(0)));
-        const Float pick_through = choose_by_albedo(chunk, i, wo, transparency, settings.caustic_roughness,
-                                                    wants_detail ? &detail : nullptr);
+        const Float pick_through =
+            choose_by_albedo(chunk, i, wo, transparency, settings.caustic_roughness, wants_detail ? &detail : nullptr);
 
         const Mask last = (flags & Int(path::k_flag_last)) != Int(0);
         const Mask alive = lanes & ~held;

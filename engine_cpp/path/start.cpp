@@ -36,6 +36,7 @@ void clear_layers(path::BatchResult& result, int i) {
     clear(result.feature_normal);
     store(result.feature_depth + i, Float(0.0f));
     store(result.feature_depth_squared + i, Float(0.0f));
+    store(result.mirrored_detail + i, Float(0.0f));
     for (int l = 0; l < path::k_layers; ++l) {
         clear(result.layer_radiance[l]);
         clear(result.layer_incident[l]);
