@@ -17,6 +17,14 @@ def load(path: Path, layer: str = "") -> np.ndarray:
         return np.stack([np.asarray(channels[channel(list(channels), layer, c)].pixels, np.float32) for c in "RGB"], -1)
 
 
+def channels(path: Path) -> dict[str, np.ndarray]:
+    """All planes of an EXR file by their names, as float32 (h, w)."""
+    import OpenEXR
+
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        return {name: np.asarray(plane.pixels, np.float32) for name, plane in file.channels().items()}
+
+
 def channel(names: list[str], layer: str, color: str) -> str:
     """The name of a layer's colour among a file's channels. A plain R is the picture; `C1.R` is not."""
     ends = [f"{layer}.{color}"] if layer else [color, f"Combined.{color}"]

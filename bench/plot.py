@@ -61,3 +61,46 @@ def curves(rows: list[dict], path: Path, figure: str = "rmse") -> bool:
     picture.savefig(path, dpi=120)
     pyplot.close(picture)
     return True
+
+
+def over_samples(rows: list[dict], path: Path, figure: str = "relmse") -> bool:
+    """Writes the error over the number of samples, a panel a scene and a line a method; False without matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    across = min(len(scenes), 3) or 1
+    down = -(-len(scenes) // across) or 1
+    picture, panels = pyplot.subplots(down, across, figsize=(4.6 * across, 3.8 * down), squeeze=False)
+    for scene, axes in zip(scenes, panels.ravel()):
+        for index, method in enumerate(methods):
+            own = [row for row in rows if row["scene"] == scene and row["method"] == method and row[figure] > 0]
+            if own:
+                style = "o-" if len(own) > 1 else "x"
+                width = 2.4 if method == "clusters" else 1.0
+                axes.loglog(
+                    [row["taken"] for row in own],
+                    [row[figure] for row in own],
+                    style,
+                    color=f"C{index % 10}",
+                    linewidth=width,
+                    markersize=4 if style == "o-" else 7,
+                    label=method,
+                )
+        axes.set_title(scene)
+        axes.set_xlabel("samples")
+        axes.set_ylabel(figure)
+        axes.grid(True, which="both", linewidth=0.3)
+        counts = sorted({row["samples"] for row in rows})
+        axes.set_xticks(counts, [str(count) for count in counts])
+        axes.set_xticks([], minor=True)
+    panels[0][0].legend(fontsize=7)
+    picture.tight_layout()
+    picture.savefig(path, dpi=120)
+    pyplot.close(picture)
+    return True

@@ -12,8 +12,8 @@ from . import metrics, regions
 FIREFLY, FIREFLY_FLOOR, FIREFLY_REACH = 0.5, 0.1, 2
 """A firefly is brighter by this share than the brightest reference pixel within so many pixels, and by this share of
 the reference's mean."""
-FEWEST = 500
-"""Pixels that a region must have to be judged."""
+FEWEST = 0.05
+"""The share of the picture that a region must have to be judged."""
 
 
 @dataclass
@@ -73,8 +73,8 @@ def evaluate(picture: np.ndarray, referee: Referee) -> dict[str, float | None]:
         "fireflies": fireflies(picture, referee.mean),
     }
     lit, textured = referee.masks["light edges"], referee.masks["texture"]
-    if lit.sum() > FEWEST:
+    if lit.mean() > FEWEST:
         out["light_edges"] = metrics.evaluate(picture, referee.mean, lit)["relmse"] - referee.own_error(lit)
-    if textured.sum() > FEWEST:
+    if textured.mean() > FEWEST:
         out["texture_kept"] = texture_kept(picture, referee, textured)
     return out

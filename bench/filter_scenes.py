@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The scenes on which the filter is judged: their references, surfaces and regions, made on first use and kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import exr, measure, quality, reference, regions
+from .engines import Job
+
+ROOT = Path(__file__).resolve().parents[1]
+BASE = ("integrator=hybrid",)
+BOUNCES = 16
+FIRST_SEED = 900_001
+"""Of the references; measured runs count from 1."""
+
+
+@dataclass(frozen=True)
+class FilterScene:
+    """`parts` × `samples` make the reference, under `settings`: in glossy_spheres photons follow rough metal too."""
+
+    name: str
+    parts: int
+    samples: int
+    settings: tuple[str, ...] = ()
+    chapter: int = 6
+
+    @property
+    def blend(self) -> Path:
+        return ROOT / "scenes" / f"{self.name}.blend"
+
+    def job(self, samples: int, seed: int, width: int, threads: int, settings: tuple[str, ...] = ()) -> Job:
+        """`width` 0: the file's own size."""
+        return Job(str(self.blend), "", samples, seed, threads, BOUNCES, True, width, settings=(*BASE, *settings))
+
+
+SCENES = {
+    scene.name: scene
+    for scene in (
+        FilterScene("glossy_spheres", 8, 32, ("caustic_roughness=0.46",)),
+        FilterScene("bust_in_water", 8, 48),
+        FilterScene("coloured_grid", 4, 64),
+        FilterScene("cornell", 4, 48, chapter=5),
+        FilterScene("metallic_ring", 4, 48, chapter=5),
+        FilterScene("open_plane", 4, 48, chapter=5),
+    )
+}
+
+
+def surface(cache: Path, scene: FilterScene, width: int) -> regions.Surface:
+    """What the camera sees, from Blender; kept until the file changes."""
+    path = cache / "surfaces" / f"{scene.name}-{scene.blend.stat().st_mtime_ns:x}-{width}.exr"
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        script = str(Path(__file__).with_name("render_surface.py"))
+        command = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", script, "--"]
+        cost = measure.run([*command, str(scene.blend), str(path), str(width)])
+        if not path.exists():
+            raise RuntimeError("no surface was rendered:\n" + "\n".join(text for _, text in cost.lines[-15:]))
+    planes = exr.channels(path)
+
+    def layer(name: str, axes: str) -> np.ndarray:
+        return np.stack([planes[f"ViewLayer.Denoising {name}.{axis}"] for axis in axes], -1)
+
+    return regions.Surface(layer("Albedo", "RGB"), layer("Normal", "XYZ"), layer("Depth", "Z")[..., 0])
+
+
+def referee(records, cache: Path, engine, scene: FilterScene, width: int, threads: int) -> quality.Referee | None:
+    """The scene's reference and regions; None if time ran out."""
+    job = scene.job(scene.samples, 0, width, threads, scene.settings)
+    found = reference.make(records, cache, engine, scene.name, job, scene.parts, FIRST_SEED)
+    if found is None or found.parts < scene.parts:
+        return None
+    parts = np.array([exr.load(path) for path in found.paths], np.float64)
+    halves = parts[0::2].mean(0), parts[1::2].mean(0)
+    return quality.Referee(parts, regions.regions(halves, surface(cache, scene, width)))

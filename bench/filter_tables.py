@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`python -m bench filter --part tables`: what clusters, rejection and filter cost, beside the thesis's tables."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from . import filter_methods, filter_runs, filter_scenes, metrics, runs, store, thesis
+
+SAMPLES, REPEATS = 16, 5
+NAMES = ("glossy_spheres", "bust_in_water", "coloured_grid")
+SIGMA, MU = 11, 0.5
+COUNTS = (1, 2, 4, 8, 16, 32, 64)
+"""n = d σ² μ of Fig. 6.10: like samples that a cluster needs."""
+TIMES = {"scene": "", "who": "", "samples": "d", "equal_samples": "d", "render_cpu": ".2f", "render": ".2f"}
+TIMES |= {"rejection": ".3f", "filter": ".3f"}
+SIZES = {"scene": "", "who": "", "clusters": ".3e", "singles": ".3e", "megabytes": ".1f", "outliers": ".3%"}
+OVERHEAD = {"scene": "", "pairs": "d", "plain_cpu": ".2f", "overhead": ".2%", "low": ".2%", "high": ".2%"}
+OVER_N = {"scene": "", "n": "d", "seconds": ".4f", "rejected": ".4%"}
+BARS = {"rejection": 0.2, "filter": 2.0, "megabytes": 236.0, "overhead": 0.05, "megabytes_1080p": 800.0}
+
+
+def seconds(film: filter_runs.Film, settings: tuple[str, ...], repeats: int) -> tuple[float, dict] | None:
+    """Median seconds of filtering on all threads, and the last run's record."""
+    done = [film.filtered(settings, run) for run in range(repeats)]
+    if any(one is None for one in done):
+        return None
+    return float(np.median([one[0]["seconds"] for one in done])), done[-1][0]
+
+
+def tables(film: filter_runs.Film, name: str) -> tuple[dict, dict] | None:
+    """One scene's rows of tables 6.1 and 6.2."""
+    rejection = seconds(film, filter_methods.FILTERS["rejection"], REPEATS)
+    whole = seconds(film, filter_methods.CLUSTERS, REPEATS)
+    if rejection is None or whole is None:
+        return None
+    record = film.raw()[0]
+    cpu = record["cpu"] + whole[1]["cpu_seconds"]
+    plain = filter_methods.plain(film, SAMPLES)
+    times = {"scene": name, "who": "ours", "samples": SAMPLES, "render_cpu": record["cpu"]}
+    times |= {"equal_samples": round(SAMPLES * cpu / plain.cpu) if plain else None}
+    times |= {"render": record["stats"]["seconds"]["render"]}
+    times |= {"rejection": rejection[0], "filter": whole[0] - rejection[0]}
+    found = rejection[1]
+    sizes = {"scene": name, "who": "ours", "clusters": found["clusters"], "singles": found["singles"]}
+    sizes |= {"megabytes": found["film_bytes"] / 1e6, "outliers": found["outlier_share"]}
+    return times, sizes
+
+
+def over_n(film: filter_runs.Film, name: str) -> list[dict]:
+    """Fig. 6.10: seconds of rejection over the count that a cluster needs."""
+    rows = []
+    for n in COUNTS:
+        density = f"firefly_density={n / (SIGMA * SIGMA * MU):.7g}"
+        found = seconds(film, (*filter_methods.FILTERS["rejection"], density), REPEATS)
+        if found is None:
+            break
+        rows.append({"scene": name, "n": n, "seconds": found[0], "rejected": found[1]["outlier_share"]})
+    return rows
+
+
+def overhead(records, options, engine, scene) -> dict | None:
+    """CPU seconds with clusters over those without, less 1: the median of interleaved pairs, the first alternating."""
+    ratios, plain = [], []
+    for pair in range(options.pairs):
+        job = scene.job(SAMPLES, 1, options.pair_width, options.threads)
+        found = {}
+        for kept in ("false", "true") if pair % 2 else ("true", "false"):
+            one = replace(job, settings=(*job.settings, f"record_clusters={kept}"))
+            run = runs.measured(records, options.cache, engine, one, f"pair{pair}")
+            if run is None:
+                return None
+            found[kept] = run["stats"]["cpu_seconds"]
+        ratios.append(found["true"] / found["false"] - 1)
+        plain.append(found["false"])
+    middle, low, high = metrics.median_with_range(ratios)
+    row = {"scene": scene.name, "pairs": options.pairs, "plain_cpu": float(np.median(plain))}
+    return row | {"overhead": middle, "low": low, "high": high}
+
+
+def notes(times, sizes, costs, large) -> list[str]:
+    """The issue's bars."""
+    out = []
+    checks = [
+        (row, key) for rows, key in ((times, "rejection"), (times, "filter"), (costs, "overhead")) for row in rows
+    ]
+    checks += [(row, "megabytes") for row in sizes] + [(row, "megabytes_1080p") for row in large]
+    for row, key in checks:
+        if row.get("who", "ours") == "ours" and row.get(key) is not None:
+            met = "met" if row[key] <= BARS[key] else "MISSED"
+            out.append(f"{row['scene']}: {key} {row[key]:.4g} (at most {BARS[key]:g}): {met}")
+    return out
+
+
+def large_film(records, options, engine, scene) -> list[dict]:
+    """Memory at 1920 × 1080."""
+    job = scene.job(SAMPLES, 1, 0, options.threads, ("width=1920", "height=1080"))
+    film = filter_runs.Film(records, options.cache, engine, job)
+    found = film.raw()
+    film.forget()
+    if found is None:
+        return []
+    return [{"scene": scene.name, "megabytes_1080p": found[0]["stats"]["bytes"]["film"] / 1e6}]
+
+
+def run(options, records: store.Store, engine, referee_engine) -> int:
+    times, sizes, curve, costs, large = [], [], [], [], []
+    for name in options.scene or NAMES:
+        scene = filter_scenes.SCENES[name]
+        film = filter_runs.Film(records, options.cache, engine, scene.job(SAMPLES, 1, 0, options.threads))
+        found = tables(film, name)
+        if found:
+            times.append(found[0])
+            sizes.append(found[1])
+            curve += over_n(film, name)
+        film.forget()
+        if name in thesis.TABLE_6_1:
+            times.append({"scene": name, "who": "thesis", **thesis.TABLE_6_1[name]})
+            sizes.append({"scene": name, "who": "thesis", **thesis.TABLE_6_2[name]})
+        cost = overhead(records, options, engine, scene)
+        costs += [cost] if cost else []
+        large += large_film(records, options, engine, scene) if name == NAMES[0] else []
+        print(f"   {name}: done", flush=True)
+    for title, rows, columns in (
+        ("times", times, TIMES),
+        ("sizes", sizes, SIZES),
+        ("overhead", costs, OVERHEAD),
+        ("rejection", curve, OVER_N),
+        ("1080p", large, {"scene": "", "megabytes_1080p": ".1f"}),
+    ):
+        store.publish(rows, columns, options.cache / f"filter-{title}")
+    for note in notes(times, sizes, costs, large):
+        print(note)
+    return 0 if times else 1
