@@ -16,6 +16,10 @@ namespace cardioid::render {
 
 namespace {
 
+/// Where the stages of a run end: light is surveyed, rejected, and what is left is filtered, which takes most of the time.
+constexpr double k_stage_ends[] = {0, 0.05, 0.2, 0.98};
+constexpr int k_filter_stage = 2;
+
 std::int64_t thread_cpu_ns() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -23,7 +27,10 @@ std::int64_t thread_cpu_ns() {
 }
 
 film::Pass* pass_of(film::Frame& frame, const char* name) {
-    return const_cast<film::Pass*>(std::as_const(frame).find(name));
+    for (film::Pass& p : frame.passes) {
+        if (p.name == name) return &p;
+    }
+    return nullptr;
 }
 
 double luminance_of(const film::Pass& pass) {
@@ -39,9 +46,8 @@ double luminance_of(const film::Pass& pass) {
 
 bool FilterRun::for_each(int n, const std::function<void(int)>& body) {
     const std::thread::id caller = std::this_thread::get_id();
-    // How many stages follow is not known: each is taken for half of what is left.
-    const double before = 1 - std::exp2(-stage_), share = std::exp2(-(stage_ + 1)) / std::max(n, 1);
-    ++stage_;
+    const Clock::time_point start = Clock::now();
+    const double before = k_stage_ends[stage_], share = (k_stage_ends[stage_ + 1] - before) / std::max(n, 1);
     std::atomic<int> done{0};
     tbb::parallel_for(
         0, n,
@@ -49,19 +55,24 @@ bool FilterRun::for_each(int n, const std::function<void(int)>& body) {
             if (stop_.load(std::memory_order_relaxed)) return;
             const FlushDenormals guard;
             const bool helper = std::this_thread::get_id() != caller;
-            const std::int64_t start = helper ? thread_cpu_ns() : 0;
+            const std::int64_t cpu = helper ? thread_cpu_ns() : 0;
             body(i);
-            if (helper) helpers_ns_ += thread_cpu_ns() - start;
+            if (helper) helpers_ns_ += thread_cpu_ns() - cpu;
             const double now = before + share * ++done;
             double seen = fraction_.load(std::memory_order_relaxed);
             while (seen < now && !fraction_.compare_exchange_weak(seen, now, std::memory_order_relaxed)) {}
         },
         tbb::simple_partitioner{});
+    if (stage_ < k_filter_stage) {
+        report_.rejection_seconds += seconds_since(start);
+        ++stage_;
+    }
     return done == n;
 }
 
 filter::Filtered FilterRun::compute(const film::Film& film, const scene::FilterSettings& settings, int lanes) {
     const FlushDenormals guard;
+    stage_ = settings.firefly_density > 0 ? 0 : k_filter_stage;
     const Clock::time_point start = Clock::now();
     const std::int64_t cpu = thread_cpu_ns();
     filter::Filtered result = filter::run(
@@ -94,6 +105,7 @@ nlohmann::json to_json(const FilterReport& r) {
     const double clusters = static_cast<double>(std::max<std::int64_t>(c.clusters, 1));
     return {{"seconds", r.seconds},
             {"cpu_seconds", r.cpu_seconds},
+            {"rejection_seconds", r.rejection_seconds},
             {"clusters", c.clusters},
             {"singles", c.singles},
             {"rejected", c.rejected},

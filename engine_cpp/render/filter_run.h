@@ -16,6 +16,7 @@ namespace cardioid::render {
 /// What a run did and cost.
 struct FilterReport {
     double seconds = 0, cpu_seconds = 0;  ///< of the whole run; CPU: of all its threads
+    double rejection_seconds = 0;         ///< part of `seconds`
     filter::RejectionStats rejection;
     double withheld_share = 0;  ///< of the raw picture's luminance
 };

@@ -2,6 +2,7 @@
 // The public face of a session: start, wait, cancel, and copies of what it has.
 #include "render/session.h"
 
+#include "render/sample_counts.h"
 #include "render/session_impl.h"
 
 #include <tbb/info.h>
@@ -25,6 +26,7 @@ Session::Session(std::shared_ptr<const scene::SceneDesc> desc, int width, std::v
     : impl_(std::make_unique<Impl>(std::move(desc), width)) {
     impl_->scene_warnings = std::move(notes);
     impl_->picture = impl_->film->make_frame();
+    if (impl_->adaptive.on()) add_sample_counts(impl_->picture);
     for (const film::Pass& p : impl_->picture.passes)
         impl_->picture_bytes += static_cast<std::int64_t>(p.data.size() * sizeof(float));
     impl_->unfinished_pixels = impl_->adaptive.active_pixels();

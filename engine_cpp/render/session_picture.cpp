@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a session shows: samples into the film, tiles into the picture, and the filter over it.
+#include "render/sample_counts.h"
 #include "render/session_impl.h"
 
 namespace cardioid::render {
@@ -47,6 +48,7 @@ void Session::Impl::publish(const film::Region& tile) {
     const std::lock_guard lock(picture_mutex);
     film->resolve(tile, picture, filtered);
     if (!filtered) show_raw(region, tile, picture);
+    show_sample_counts(*film, tile, picture);
 }
 
 void Session::Impl::filter_picture() {

@@ -1,50 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cardioid-render as a program: files in, pictures and exit codes out.
 #include "analytic/scenes.h"
+#include "apps/program.h"
 #include "scene/scene_file.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <string>
 
 namespace cardioid::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Finished {
-    int code = -1;
-    std::string output;  ///< both streams
-};
-
-/// Runs the program in the shell with the arguments as they stand.
-Finished run(const std::string& arguments) {
-    Finished r;
-    const std::string command = std::string("\"") + CARDIOID_RENDER + "\" " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): own temporary paths
-    if (!pipe) return r;
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) r.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    r.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return r;
-}
-
-std::string bytes_of(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+Finished run(const std::string& arguments) { return run_program(CARDIOID_RENDER, arguments); }
 
 class Cli : public testing::Test {
 protected:
@@ -117,15 +89,6 @@ TEST_F(Cli, TheSameSeedGivesTheSamePicture) {
 }
 
 TEST_F(Cli, QuietSaysNothing) { EXPECT_EQ(run(scene_file + " -q -o " + at("out.exr")).output, ""); }
-
-/// Fails with a line that has both words, without a picture and without a crash.
-void expect_refusal(const Finished& r, const std::string& word, const std::string& other = "") {
-    EXPECT_GT(r.code, 0);
-    EXPECT_LT(r.code, 128) << "killed by a signal: " << r.output;
-    EXPECT_NE(r.output.find(word), std::string::npos) << r.output;
-    EXPECT_NE(r.output.find(other), std::string::npos) << r.output;
-    EXPECT_EQ(r.output.find("terminate called"), std::string::npos) << r.output;
-}
 
 TEST_F(Cli, BadFilesAreNamed) {
     expect_refusal(run(at("missing.cardioid") + " -q -o " + at("x.exr")), "error", "missing.cardioid");

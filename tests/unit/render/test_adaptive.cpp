@@ -159,6 +159,7 @@ TEST(AdaptiveSession, AFlatPictureEndsEarly) {
     EXPECT_EQ(stats["counts"]["camera_paths"], 70 * 30 * 48);
     EXPECT_EQ(stats["adaptive"]["mean_samples"], 48);
     EXPECT_EQ(stats["adaptive"]["unfinished_pixels"], 0);
+    for (const float v : session.frame()->find("Debug Sample Count")->data) ASSERT_EQ(v, 48);
     for (const float v : session.frame()->find("Raw")->data) ASSERT_NEAR(v, 0.25f, 1e-6f);
 }
 
@@ -254,6 +255,12 @@ TEST(AdaptiveSession, EnergyStaysAndNoiseIsWhereItMayBe) {
     };
     EXPECT_NEAR(mean(a) / mean(full), 1, 0.01);
     EXPECT_LT(a.stats["adaptive"]["mean_samples"].get<double>(), 400);
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 48; ++x)
+            ASSERT_EQ(a.frame->find("Debug Sample Count")->data[static_cast<std::size_t>(48 * y + x)],
+                      a.film->samples(x, y));
+    }
+    EXPECT_EQ(full.frame->find("Debug Sample Count"), nullptr);
     EXPECT_EQ(a.stats["counts"]["camera_paths"].get<double>(),
               a.stats["adaptive"]["mean_samples"].get<double>() * 48 * 40);
 }
