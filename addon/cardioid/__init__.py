@@ -5,7 +5,7 @@ import atexit
 
 import bpy
 
-from . import core, engine, messages, passes, sessions, settings, ui
+from . import core, engine, film_images, films, messages, passes, retune, sessions, settings, ui
 
 bl_info = {
     "name": "Cardioid",
@@ -17,7 +17,7 @@ bl_info = {
     "category": "Render",
 }
 
-_modules = (messages, sessions, settings, passes, ui, engine)
+_modules = (messages, sessions, films, film_images, retune, settings, passes, ui, engine)
 
 
 def register() -> None:

@@ -15,13 +15,14 @@ from .settings_table import k_by_name, k_integrators
 
 @dataclass(frozen=True)
 class Arguments:
-    """overrides: settings by their name in scene.cardioid. stats, export: files to write. print_stats: a table on the
-    terminal. problems: wrong values."""
+    """overrides: settings by their name in scene.cardioid. stats, export, film: files to write. print_stats: a table on
+    the terminal. problems: wrong values."""
 
     overrides: dict[str, Any] = field(default_factory=dict)
     stats: str = ""
     print_stats: bool = False
     export: str = ""
+    film: str = ""
     problems: tuple[str, ...] = ()
 
 
@@ -85,8 +86,8 @@ def _choice(values: dict[str, Any]):
     return parse
 
 
-def _of_setting(name: str, metavar: str, text: str) -> tuple:
-    """The argument of a setting of the table, with the setting's own limits."""
+def _of_setting(name: str, metavar: str, text: str, option: str = "") -> tuple:
+    """The argument of a setting of the table, with the setting's own limits. option: where its name says it better."""
     setting = k_by_name[name]
     if setting.kind == "int":
         parser = _integer(setting.options["min"])
@@ -95,7 +96,7 @@ def _of_setting(name: str, metavar: str, text: str) -> tuple:
     else:
         values = {key.lower(): key for key in setting.items} if setting.items else {"on": True, "off": False}
         parser, metavar = _choice(values), "|".join(values)
-    return f"--cardioid-{name.replace('_', '-')}", name, parser, metavar, text
+    return f"--cardioid-{option or name.replace('_', '-')}", name, parser, metavar, text
 
 
 k_arguments = (
@@ -114,6 +115,20 @@ k_arguments = (
     _of_setting("guided_emission", "", "photons learn where they are needed"),
     _of_setting("blend_caustic_hits", "", "caustics that path tracing finds count too"),
     _of_setting("physical_refraction", "", "radiance changes where light enters glass"),
+    _of_setting("use_adaptive_sampling", "", "pixels that are clean enough get no more samples", "adaptive-sampling"),
+    _of_setting("adaptive_threshold", "NOISE", "noise at which a pixel is clean enough; 0: by the samples"),
+    _of_setting("adaptive_min_samples", "N", "samples that every pixel gets; 0: by the threshold"),
+    _of_setting("use_filter", "", "take fireflies and noise out of the picture", "filter"),
+    _of_setting("filter_method", "", "how noise is told from picture; none: fireflies only"),
+    _of_setting("firefly_density", "DENSITY", "the larger, the more fireflies go; 0: all light stays"),
+    _of_setting("luminance_sensitivity", "SHARE", "light within this share of brightness is smoothed together"),
+    _of_setting("filter_size", "PIXELS", "width of what is smoothed together"),
+    _of_setting("filter_direct", "", "smooth light that comes straight from lamps"),
+    _of_setting("filter_indirect", "", "smooth light of one bounce"),
+    _of_setting("filter_deep", "", "smooth light of more bounces"),
+    _of_setting("texture_width", "WIDTH", "for cross_bilateral: how unlike textures may be"),
+    _of_setting("save_film", "", "save a film beside each frame, to filter it again"),
+    ("--cardioid-film", "film", str, "FILE.cardioid", "save the film there; # is the frame number"),
     ("--cardioid-stats", "stats", str, "FILE.json", "write times, counts and memory of each frame there"),
     ("--cardioid-print-stats", "print_stats", None, None, "print a table of counts and times after each frame"),
     ("--cardioid-export", "export", str, "FILE.cardioid", "save the scene for cardioid-render; # is the frame number"),
@@ -142,7 +157,7 @@ def parse(argv: Sequence[str]) -> Arguments:
             values[name] = getattr(found, name)
     problems += [f"{word.split('=')[0]}: there is no such option" for word in rest if word.startswith("--cardioid-")
                  and word.split("=")[0] not in {argument[0] for argument in k_arguments}]
-    others = {name: values.pop(name) for name in ("stats", "print_stats", "export") if name in values}
+    others = {name: values.pop(name) for name in ("stats", "print_stats", "export", "film") if name in values}
     return Arguments(overrides=values, problems=tuple(problems), **others)
 
 

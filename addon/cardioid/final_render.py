@@ -9,7 +9,21 @@ from typing import Any
 
 import bpy
 
-from . import cli_args, core, export, frame_size, messages, passes, render_loop, report, sessions, stats_file
+from . import (
+    cli_args,
+    core,
+    export,
+    film_stage,
+    films,
+    frame_size,
+    messages,
+    passes,
+    render_loop,
+    report,
+    retune,
+    sessions,
+    stats_file,
+)
 from .messages import RenderProblem
 from .render_result import Target
 from .resolve import resolve
@@ -23,9 +37,13 @@ def render(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> No
     arguments = cli_args.current()
     if arguments.problems:
         raise RenderProblem(messages.summary(arguments.problems))
+    work = None if engine.is_preview else retune.current()
     with sessions.exclusive(preview=engine.is_preview):
         for view in _views(engine):
-            if not engine.test_break():
+            kept = films.get(depsgraph.scene.name, depsgraph.view_layer.name, view) if work else None
+            if kept is not None:
+                _filter_view(engine, module, depsgraph, view, work, kept)
+            elif not engine.test_break():
                 _render_view(engine, module, depsgraph, view, arguments)
 
 
@@ -36,10 +54,19 @@ def _views(engine: bpy.types.RenderEngine) -> list[str]:
     return names or [""]
 
 
+def _overrides(engine: bpy.types.RenderEngine, scene: bpy.types.Scene, arguments: cli_args.Arguments) -> dict[str, Any]:
+    """What wins over the scene's settings: the command line; lines of Freestyle are no light and are never filtered."""
+    if engine.is_preview:
+        return {}
+    if scene.name not in bpy.data.scenes:
+        return {**arguments.overrides, "use_filter": False, "keep_film": False, "save_film": False}
+    return {**arguments.overrides, **({"save_film": True} if arguments.film else {})}
+
+
 def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph, view: str,
                  arguments: cli_args.Arguments) -> None:
     scene, layer = depsgraph.scene_eval, depsgraph.view_layer_eval
-    overrides = {} if engine.is_preview else arguments.overrides
+    overrides = _overrides(engine, scene, arguments)
     try:
         settings = resolve(scene, layer, overrides, preview=engine.is_preview)
     except ValueError as error:
@@ -55,17 +82,37 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
         messages.warn(engine, exported.warnings)
         if arguments.export:
             _save_scene(module, exported, arguments.export.replace("#", str(scene.frame_current)))
-    size, area = frame_size.result_size(scene.render), frame_size.crop(scene.render)
-    target = Target(engine, layer.name, view, size, area, wanted)
+    shape = frame_size.shape(scene.render)
+    target = Target(engine, layer.name, view, shape, wanted)
     entry = {"frame": scene.frame_current, "layer": layer.name, "view": view, "settings": settings,
              "export": exported.timings, "export_seconds": time.monotonic() - start}
     try:
-        _run(engine, module, exported, target, entry)
+        film = _run(engine, module, exported, target, entry)
     finally:
         target.close()
     if not engine.is_preview:
-        _stamp(engine, layer.name, entry)
+        if film is not None:
+            taken = film_stage.Taken(film, view, shape, settings, entry)
+            film_stage.finish(engine, module, depsgraph, taken, overrides, arguments.film)
+        report.stamp(engine, layer.name, entry)
         _tell(engine, arguments, entry)
+
+
+def _filter_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph, view: str,
+                 work: retune.Work, kept: films.Kept) -> None:
+    """Fills the result from a kept film by the filter's settings of now. Nothing is exported or traced."""
+    layer = depsgraph.view_layer_eval
+    if view:
+        engine.active_view_set(view)
+    shape = frame_size.shape(depsgraph.scene_eval.render)
+    target = Target(engine, layer.name, view, shape, list(passes.enabled(layer)))
+    try:
+        film_stage.fill(engine, module, depsgraph.scene.name, work, kept, target)
+    except module.Error as error:
+        raise _engine_problem(error) from error
+    finally:
+        target.close()
+    report.stamp(engine, layer.name, kept.entry)
 
 
 def _export(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.types.Depsgraph,
@@ -88,7 +135,8 @@ def _export(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.t
 
 
 def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Exported, target: Target,
-         entry: dict[str, Any]) -> None:
+         entry: dict[str, Any]) -> Any:
+    """The session's film, or None when it recorded none."""
     start = time.monotonic()
     try:
         with sessions.opened(module.Session(exported.scene)) as session:
@@ -97,9 +145,11 @@ def _run(engine: bpy.types.RenderEngine, module: ModuleType, exported: export.Ex
                 messages.warn(engine, session.warnings())
             entry["samples"] = session.progress().get("samples", 0)
             entry["engine"] = session.stats()
+            film = session.film()
     except module.Error as error:
         raise _engine_problem(error) from error
     entry["render_seconds"] = time.monotonic() - start
+    return film if film is not None and film.has_clusters else None
 
 
 def _tell(engine: bpy.types.RenderEngine, arguments: cli_args.Arguments, entry: dict[str, Any]) -> None:
@@ -124,13 +174,3 @@ def _save_scene(module: ModuleType, exported: export.Exported, path: str) -> Non
 
 def _engine_problem(error: Exception) -> RenderProblem:
     return RenderProblem(messages.summary(getattr(error, "problems", None) or [str(error)]))
-
-
-def _stamp(engine: bpy.types.RenderEngine, layer: str, entry: dict[str, Any]) -> None:
-    """Metadata that Blender writes into the saved picture."""
-    result = engine.get_result()
-    if result is None:
-        return
-    result.stamp_data_add_field("cardioid.version", core.versions().get("engine", ""))
-    for one in report.figures(entry):
-        result.stamp_data_add_field(f"cardioid.{layer}.{one.name}", one.value)

@@ -3,8 +3,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import bpy
 import numpy as np
+
+
+@dataclass(frozen=True)
+class Shape:
+    """size: pixels of the render result. area: the border as in `crop`."""
+
+    size: tuple[int, int]
+    area: tuple[int, int, int, int]
 
 
 def resolution(render: bpy.types.RenderSettings) -> tuple[int, int]:
@@ -29,6 +39,10 @@ def result_size(render: bpy.types.RenderSettings) -> tuple[int, int]:
     """Pixels that the render result wants: those of the border, or of the whole frame."""
     area = crop(render)
     return (area[2], area[3]) if area[2] else resolution(render)
+
+
+def shape(render: bpy.types.RenderSettings) -> Shape:
+    return Shape(result_size(render), crop(render))
 
 
 def _pixel(fraction: float, size: int) -> int:

@@ -13,7 +13,8 @@ from bpy.props import BoolProperty, PointerProperty
 @dataclass(frozen=True)
 class Pass:
     """engine: name in a Frame. names: (first Blender version, Blender's name), newest first. channels: their letters.
-    switch: property of the view layer, or of view_layer.cardioid when `own`; empty: always there."""
+    switch: property of the view layer, or of view_layer.cardioid when `own`; empty: always there. of_filter: the engine
+    has it only when it records what the filter needs."""
 
     engine: str
     names: tuple[tuple[tuple[int, int], str], ...]
@@ -23,6 +24,7 @@ class Pass:
     own: bool = False
     label: str = ""
     description: str = ""
+    of_filter: bool = False
 
     @property
     def name(self) -> str:
@@ -34,9 +36,9 @@ def _builtin(engine: str, name: str, channels: str, kind: str, switch: str) -> P
     return Pass(engine, (((0, 0), name),), channels, kind, switch)
 
 
-def _own(engine: str, label: str, description: str) -> Pass:
+def _own(engine: str, label: str, description: str, *, of_filter: bool = False) -> Pass:
     return Pass(engine, (((0, 0), f"Cardioid {engine}"),), "RGB", "COLOR", f"use_pass_{engine.lower()}", True, label,
-                description)
+                description, of_filter)
 
 
 k_passes = (
@@ -49,6 +51,9 @@ k_passes = (
     _own("D3", "Indirect", "Light that was scattered by rough surfaces more than once"),
     _own("C1", "Caustics", "Light of lamps that mirrors, metal, glass or water throw onto rougher surfaces"),
     _own("C2", "Indirect Caustics", "Caustics of light that a rough surface has scattered first"),
+    _own("Raw", "Noisy Image", "The picture as it was traced, whatever the filter does", of_filter=True),
+    _own("Filtered", "Filtered Image", "The picture that the filter makes", of_filter=True),
+    _own("Withheld", "Withheld Light", "Light of fireflies, which the filter keeps from the picture", of_filter=True),
 )
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 
 from . import pixels
+from .frame_size import Shape
 from .messages import RenderProblem
 from .passes import Pass
 
@@ -15,11 +16,10 @@ from .passes import Pass
 class Target:
     """Opened at the first picture, refined by each later one; `close` merges it for good, also after a cancel."""
 
-    def __init__(self, engine: bpy.types.RenderEngine, layer: str, view: str, size: tuple[int, int],
-                 area: tuple[int, int, int, int], passes: list[Pass]):
+    def __init__(self, engine: bpy.types.RenderEngine, layer: str, view: str, shape: Shape, passes: list[Pass]):
         self._engine = engine
         self._layer, self._view = layer, view
-        self._size, self._area = size, area
+        self._size, self._area = shape.size, shape.area
         self._passes = {one.name: one.engine for one in passes}
         self._result = None
         for one in passes:

@@ -9,7 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from . import progress
+import bpy
+
+from . import core, progress
 from .settings_table import k_integrators
 
 k_labels = {row[3]: row[0] for row in k_integrators.values()}
@@ -56,27 +58,36 @@ k_figures = (
     ("seconds.photon_index", "Photon index", _seconds),
     ("seconds.camera", "Camera paths and gathering", _seconds),
     ("bytes.photons", "Memory of photons", _bytes),
+    ("filter.seconds", "Noise filter, last run", _seconds),
+    ("filter.clusters", "Clusters of light", _whole),
+    ("filter.singles", "Clusters of one sample", _whole),
+    ("filter.outlier_share", "Clusters withheld", _share),
+    ("filter.withheld_share", "Light withheld", _share),
     ("counts.non_finite_dropped", "Samples dropped as not finite", _whole),
 )
 
 
 def figures(entry: dict[str, Any]) -> list[Figure]:
     """The figures of one rendered frame, layer and view (`entry` as in --cardioid-stats) that its engine has told."""
-    settings = entry["settings"]
-    spent = entry["export_seconds"] + entry["render_seconds"]
-    found = [
-        Figure("integrator", "Integrator", settings["integrator"], k_labels.get(settings["integrator"], "")),
-        Figure("samples", "Samples", *_whole(entry["samples"])),
-        Figure("seed", "Seed", str(settings["seed"]), str(settings["seed"])),
-        Figure("render_time", "Time with export", f"{spent:.2f}", f"{spent:.2f} s"),
-    ]
-    engine = _with_share(entry.get("engine", {}))
+    found = _of_render(entry) if "settings" in entry else []  # a film that was opened does not know its render
+    engine = {**_with_share(entry.get("engine", {})), "filter": _of_filter(entry)}
     for name, label, words in k_figures:
         group, key = name.split(".")
         value = engine.get(group, {}).get(key)
         if value is not None:
             found.append(Figure(name, label, *words(value)))
     return found
+
+
+def _of_render(entry: dict[str, Any]) -> list[Figure]:
+    settings = entry["settings"]
+    spent = entry["export_seconds"] + entry["render_seconds"]
+    return [
+        Figure("integrator", "Integrator", settings["integrator"], k_labels.get(settings["integrator"], "")),
+        Figure("samples", "Samples", *_whole(entry["samples"])),
+        Figure("seed", "Seed", str(settings["seed"]), str(settings["seed"])),
+        Figure("render_time", "Time with export", f"{spent:.2f}", f"{spent:.2f} s"),
+    ]
 
 
 def _with_share(engine: dict[str, Any]) -> dict[str, Any]:
@@ -87,6 +98,12 @@ def _with_share(engine: dict[str, Any]) -> dict[str, Any]:
     return {**engine, "photons": {**photons, "stored_share": photons.get("stored", 0) / photons["emitted"]}}
 
 
+def _of_filter(entry: dict[str, Any]) -> dict[str, Any]:
+    """What the filter did for the picture; empty when it did nothing."""
+    stats = filter_stats(entry)
+    return stats if stats.get("seconds") else {}
+
+
 def table(entry: dict[str, Any]) -> str:
     """The figures as lines for a terminal."""
     rows = figures(entry)
@@ -94,3 +111,31 @@ def table(entry: dict[str, Any]) -> str:
     view = f", view {entry['view']}" if entry["view"] else ""
     lines = [f"Cardioid: frame {entry['frame']}, layer {entry['layer']}{view}"]
     return "\n".join(lines + [f"  {one.label:<{width}}  {one.text}" for one in rows])
+
+
+def stamp(engine: bpy.types.RenderEngine, layer: str, entry: dict[str, Any]) -> None:
+    """Metadata that Blender writes into the saved picture."""
+    result = engine.get_result()
+    if result is None:
+        return
+    result.stamp_data_add_field("cardioid.version", core.versions().get("engine", ""))
+    for one in figures(entry):
+        result.stamp_data_add_field(f"cardioid.{layer}.{one.name}", one.value)
+
+
+def filter_stats(entry: dict[str, Any]) -> dict[str, Any]:
+    """The filter's own figures: of the last filtering since the render, or else the render's."""
+    return entry.get("filter") or entry.get("engine", {}).get("filter", {})
+
+
+def filter_lines(stats: dict[str, Any], samples: int, settings: dict[str, Any]) -> list[str]:
+    """What the filter did, for the panel."""
+    lines = [f"{samples} samples"]
+    if not settings.get("use_filter"):
+        return [*lines, "Not filtered"]
+    seconds = stats.get("elapsed", stats.get("seconds"))
+    if seconds:
+        lines.append(f"Filtered in {seconds:.1f} s")
+    if "withheld_share" in stats:
+        lines.append(f"Withheld: {100 * stats['withheld_share']:.2f} % of the light")
+    return lines

@@ -8,8 +8,8 @@ from typing import Any
 
 import bpy
 
-from . import cycles_values
-from .settings_table import Setting, k_integrators, k_settings
+from . import cycles_values, passes
+from .settings_table import Setting, k_integrators, k_settings, k_tuning
 
 k_preview_samples = 24
 k_preview_bounces = 6
@@ -30,10 +30,25 @@ def resolve(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, overrides: 
     values["filter_width"] = _filter_width(values)
     if preview:
         values.update(samples=min(values["samples"], k_preview_samples), time_limit=k_preview_seconds,
-                      max_bounces=min(values["max_bounces"], k_preview_bounces), sample_offset=0)
+                      max_bounces=min(values["max_bounces"], k_preview_bounces), sample_offset=0,
+                      use_adaptive_sampling=False, keep_film=False, save_film=False)
     values.update(overrides or {})
     values["seed"] = _seed(scene, values)
-    return _engine_settings(scene, values)
+    values["adaptive_threshold"] = _adaptive_threshold(values)
+    engine = _engine_settings(scene, values)
+    engine["record_clusters"] = records_film(values) or any(one.of_filter for one in passes.enabled(view_layer))
+    return engine
+
+
+def filter_settings(scene: bpy.types.Scene, overrides: dict[str, Any] | None = None) -> dict[str, Any]:
+    """The part of the engine's settings that may change after the render: keywords of a FilterJob."""
+    values = {setting.name: getattr(scene.cardioid, setting.name) for setting in k_tuning} | (overrides or {})
+    return {setting.key: _engine_value(setting, values[setting.name]) for setting in k_tuning}
+
+
+def records_film(values: dict[str, Any]) -> bool:
+    """Whether the engine must record what the filter needs. A background Blender keeps no film for a hand to tune."""
+    return values["use_filter"] or values["save_film"] or (values["keep_film"] and not bpy.app.background)
 
 
 def _samples(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer, values: dict[str, Any]) -> tuple[int, int]:
@@ -58,6 +73,13 @@ def _filter_width(values: dict[str, Any]) -> float:
     return 1.0 if values["pixel_filter"] == "BOX" else values["filter_width"]
 
 
+def _adaptive_threshold(values: dict[str, Any]) -> float:
+    """0 where every pixel gets all samples; Cycles' 0 chooses by the number of samples."""
+    if not values["use_adaptive_sampling"]:
+        return 0.0
+    return values["adaptive_threshold"] or max(0.001, 1.0 / values["samples"])
+
+
 def _seed(scene: bpy.types.Scene, values: dict[str, Any]) -> int:
     if not values["use_animated_seed"]:
         return values["seed"]
@@ -66,10 +88,12 @@ def _seed(scene: bpy.types.Scene, values: dict[str, Any]) -> int:
     return (values["seed"] + int(frame * 1000) * 2654435761) & 0x7FFFFFFF
 
 
-def _threads(scene: bpy.types.Scene, threads: int) -> int:
-    if threads == 0 and scene.render.threads_mode == "FIXED":
+def threads(scene: bpy.types.Scene, wanted: int | None = None) -> int:
+    """Threads of the engine; 0: all. wanted: in place of the scene's setting."""
+    count = scene.cardioid.threads if wanted is None else wanted
+    if count == 0 and scene.render.threads_mode == "FIXED":
         return scene.render.threads
-    return threads
+    return count
 
 
 def _engine_value(setting: Setting, value: Any) -> Any:
@@ -84,7 +108,7 @@ def _engine_settings(scene: bpy.types.Scene, values: dict[str, Any]) -> dict[str
     engine["integrator"] = k_integrators[values["integrator"]][3]
     if values["integrator"] == "PT":
         engine["caustic_roughness"] = 0.0  # all but exact mirrors and glass is diffuse to it
-    engine["threads"] = _threads(scene, values["threads"])
+    engine["threads"] = threads(scene, values["threads"])
     engine["memory_limit"] = values["memory_limit"] * k_megabyte
     engine["transparent_film"] = scene.render.film_transparent
     engine["ocio_config"] = ocio_config()

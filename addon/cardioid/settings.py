@@ -12,7 +12,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from . import core, cycles_values
+from . import core, cycles_values, retune
 from .settings_table import Setting, k_by_name, k_integrators, k_settings
 
 k_property_types = {"int": IntProperty, "float": FloatProperty, "bool": BoolProperty, "enum": EnumProperty}
@@ -49,7 +49,13 @@ def _property(setting: Setting, *, name: str, **callbacks: Any) -> Any:
         keywords["items"] = _static_items(setting)
     if "get" not in callbacks:
         keywords["default"] = setting.default
+    if setting.tunes and "update" not in callbacks:
+        keywords["update"] = _retune
     return k_property_types[setting.kind](**keywords)
+
+
+def _retune(self, _context) -> None:
+    retune.changed(self.id_data)
 
 
 def _getter(setting: Setting):
@@ -95,7 +101,7 @@ def _annotations() -> dict[str, Any]:
         if setting.cycles is None:
             properties[setting.name] = _property(setting, name=setting.label)
             continue
-        properties[own_name(setting.name)] = _property(setting, name=setting.label)
+        properties[own_name(setting.name)] = _property(setting, name=setting.label, update=None)
         properties[setting.name] = _property(setting, name=setting.label, get=_getter(setting), set=_setter(setting))
     properties["clamp"] = FloatProperty(
         name="Clamp", get=_clamp_get, set=_clamp_set, min=0.0, max=1e8,
@@ -121,6 +127,7 @@ class CARDIOID_OT_follow_cycles(bpy.types.Operator):
             return {"CANCELLED"}
         for name in [self.setting] if self.setting else settings.own_names():
             settings.follow(name)
+        retune.changed(context.scene)
         return {"FINISHED"}
 
 

@@ -32,6 +32,13 @@ k_radius_schedules = {
     "PER_PIXEL": ("By Photons Found", "Each pixel's radius shrinks by the photons that it has found", 1),
 }
 
+k_filter_methods = {
+    "CLUSTERS": ("Clusters", "Smooths light of like brightness and cause; keeps textures and shadows", 0),
+    "THESIS": ("Thesis", "As it was first published, to compare", 1),
+    "CROSS_BILATERAL": ("Cross-Bilateral", "The usual filter, by texture, depth and normals; to compare", 2),
+    "NONE": ("Fireflies Only", "Fireflies go, all other noise stays", 3),
+}
+
 k_pixel_filters = {
     "BOX": ("Box", "Average over the pixel's own square; hard edges", 0),
     "GAUSSIAN": ("Gaussian", "Soft filter", 1),
@@ -47,6 +54,7 @@ class Setting:
     cycles: the attribute of scene.cycles that it follows until the user changes it; None: it has a value of its own.
     key: the engine's name for it; None: used by the add-on only.
     options: further keywords of the bpy property (min, max, subtype, …).
+    tunes: it changes the filter, so a picture whose film is kept can follow it without rendering.
     """
 
     name: str
@@ -58,10 +66,17 @@ class Setting:
     key: str | None = None
     items: dict | None = None
     options: dict = field(default_factory=dict)
+    tunes: bool = False
 
 
 def _bounces(name: str, label: str, description: str, default: int, cycles: str, key: str) -> Setting:
     return Setting(name, "int", label, description, default, cycles, key, options={"min": 0, "max": 1024})
+
+
+def _tuning(name: str, kind: str, label: str, description: str, default: Any, *, cycles: str | None = None,
+            items: dict | None = None, **options: Any) -> Setting:
+    """A setting of the filter; the engine calls it by the same name."""
+    return Setting(name, kind, label, description, default, cycles, name, items, options, tunes=True)
 
 
 k_settings = (
@@ -70,6 +85,16 @@ k_settings = (
     Setting("time_limit", "float", "Time Limit",
             "Stop after this time and keep the picture as it is then. Exporting is not counted. 0: no limit",
             0.0, "time_limit", "time_limit", options={"min": 0.0, "step": 100, "unit": "TIME_ABSOLUTE"}),
+    Setting("use_adaptive_sampling", "bool", "Noise Threshold",
+            "Stop early where the picture is clean enough, so that samples go where noise is",
+            True, "use_adaptive_sampling"),
+    Setting("adaptive_threshold", "float", "Noise Threshold",
+            "Noise at which a pixel needs no more samples. Smaller: cleaner and slower. 0: chosen by the samples",
+            0.01, "adaptive_threshold", "adaptive_threshold",
+            options={"min": 0.0, "max": 1.0, "soft_min": 0.001, "soft_max": 0.5, "step": 0.1, "precision": 4}),
+    Setting("adaptive_min_samples", "int", "Min Samples",
+            "Samples that every pixel gets before its noise is judged. 0: chosen by the threshold",
+            0, "adaptive_min_samples", "adaptive_min_samples", options={"min": 0, "max": 4096}),
     Setting("seed", "int", "Seed", "Another seed gives another pattern of noise",
             0, "seed", "seed", options={"min": 0, "max": 2147483647}),
     Setting("use_animated_seed", "bool", "Animated Seed", "Change the pattern of noise on every frame",
@@ -133,6 +158,35 @@ k_settings = (
     Setting("physical_refraction", "bool", "Physical Refraction",
             "Radiance changes where light enters glass or water, as in nature. Off: as in Cycles",
             False, None, "physical_refraction"),
+    _tuning("use_filter", "bool", "Noise Filter",
+            "Take fireflies and noise out of the picture. Off: the picture as it was traced",
+            True, cycles="use_denoising"),
+    _tuning("filter_method", "enum", "Method", "How noise is told from picture", "CLUSTERS", items=k_filter_methods),
+    _tuning("firefly_density", "float", "Firefly Removal",
+            "Light that too few pixels around share is withheld until more samples confirm it. "
+            "Larger: more fireflies go, and small glints with them. 0: all light stays",
+            0.0661157, min=0.0, max=10.0, soft_max=0.25, step=0.5, precision=3),
+    _tuning("luminance_sensitivity", "float", "Light Sensitivity",
+            "How unlike in brightness light may be and still be smoothed together. Larger: smoother. "
+            "Smaller: faint shadow edges stay, and noise with them",
+            0.5, min=0.0, max=0.99, subtype="FACTOR"),
+    _tuning("filter_size", "int", "Filter Size",
+            "Width in pixels of what is smoothed together, odd: an even one counts as the next. Larger: smoother, "
+            "slower, and fine shadows blur. 1: nothing is smoothed",
+            11, min=1, max=63, soft_max=31, step=2, subtype="PIXEL"),
+    _tuning("filter_direct", "bool", "Direct Light", "Smooth light that reaches surfaces straight from lamps", True),
+    _tuning("filter_indirect", "bool", "Light of One Bounce", "Smooth light that was scattered once before", True),
+    _tuning("filter_deep", "bool", "Light of More Bounces", "Smooth light that was scattered more often", True),
+    _tuning("texture_width", "float", "Texture Width",
+            "Cross-Bilateral only: how unlike in texture pixels may be and still be smoothed together",
+            0.1, min=0.0001, max=1000.0, soft_min=0.01, soft_max=1.0, step=1, precision=3),
+    Setting("keep_film", "bool", "Keep Film",
+            "Keep the film in memory after the render, so that the filter can be tuned without rendering again",
+            True),
+    Setting("live_filter", "bool", "Live Update",
+            "Let the picture follow each change of the filter at once, while an Image Editor shows it", True),
+    Setting("save_film", "bool", "Save Film",
+            "Save the film beside each rendered frame, as frame.cardioid, to filter it again another day", False),
     Setting("pixel_filter", "enum", "Type", "How samples between pixels are weighed",
             "BLACKMAN_HARRIS", "pixel_filter_type", "pixel_filter", k_pixel_filters),
     Setting("filter_width", "float", "Width", "Width of the pixel filter; wider is softer",
@@ -158,3 +212,4 @@ k_settings = (
 )
 
 k_by_name = {setting.name: setting for setting in k_settings}
+k_tuning = tuple(setting for setting in k_settings if setting.tunes)

@@ -42,6 +42,7 @@ def reset(*, width: int = 32, height: int = 24, samples: int = 4) -> bpy.types.S
     scene.render.resolution_percentage = 100
     if ENGINE == "CARDIOID":
         scene.cardioid.samples = samples
+        scene.cardioid.use_filter = scene.cardioid.use_adaptive_sampling = False  # pictures as they are traced
     else:
         scene.cycles.samples, scene.cycles.use_denoising = samples, False
     scene.render.image_settings.file_format = "OPEN_EXR"

@@ -36,6 +36,10 @@ def setting(layout: bpy.types.UILayout, settings, name: str, text: str | None = 
     row = layout.row(align=True)
     words = {} if text is None else {"text": text}
     row.prop(settings, name, **words)
+    follow_button(row, settings, name)
+
+
+def follow_button(row: bpy.types.UILayout, settings, name: str) -> None:
     if settings.is_own(name):
         row.operator("cardioid.follow_cycles", text="", icon="LOOP_BACK", emboss=False).setting = name
 

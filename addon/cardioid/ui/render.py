@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Render Properties: Sampling, Light Paths, Caustics (caustics.py), Film, Performance."""
+"""Render Properties: Sampling, Light Paths, Film, Performance. Noise Filter and Caustics have files of their own."""
 
 from __future__ import annotations
 
 import bpy
 
 from .. import core
-from . import caustics
+from . import caustics, noise_filter
 from .common import (
     CardioidPanel,
+    follow_button,
     k_engine,
     register_all,
     renamed_copy,
@@ -36,6 +37,7 @@ class CARDIOID_RENDER_PT_sampling(CardioidPanel, bpy.types.Panel):
         layout = split(self.layout)
         settings = context.scene.cardioid
         layout.prop(settings, "integrator")
+        _draw_noise_threshold(layout, settings)
         column = layout.column(align=True)
         setting(column, settings, "samples")
         setting(column, settings, "time_limit")
@@ -46,6 +48,19 @@ class CARDIOID_RENDER_PT_sampling(CardioidPanel, bpy.types.Panel):
         row = layout.row()
         row.label(text=f"{changed} changed here, the others follow Cycles", icon="LINKED")
         row.operator("cardioid.follow_cycles", text="", icon="LOOP_BACK").setting = ""
+
+
+def _draw_noise_threshold(layout: bpy.types.UILayout, settings) -> None:
+    """As in Cycles: a switch and its value in one line."""
+    row = layout.column(heading="Noise Threshold", align=True).row(align=True)
+    row.prop(settings, "use_adaptive_sampling", text="")
+    value = row.row(align=True)
+    value.active = settings.use_adaptive_sampling
+    value.prop(settings, "adaptive_threshold", text="")
+    for name in ("use_adaptive_sampling", "adaptive_threshold"):
+        follow_button(row, settings, name)
+    if settings.use_adaptive_sampling:
+        setting(layout, settings, "adaptive_min_samples")
 
 
 class CARDIOID_RENDER_PT_sampling_advanced(CardioidPanel, bpy.types.Panel):
@@ -171,8 +186,9 @@ class CARDIOID_RENDER_PT_memory(CardioidPanel, bpy.types.Panel):
 
 
 _classes = (
-    CARDIOID_RENDER_PT_sampling, CARDIOID_RENDER_PT_sampling_advanced, CARDIOID_RENDER_PT_light_paths,
-    CARDIOID_RENDER_PT_bounces, CARDIOID_RENDER_PT_clamping, *caustics.k_classes, CARDIOID_RENDER_PT_film,
+    CARDIOID_RENDER_PT_sampling, CARDIOID_RENDER_PT_sampling_advanced, *noise_filter.k_panels,
+    CARDIOID_RENDER_PT_light_paths, CARDIOID_RENDER_PT_bounces, CARDIOID_RENDER_PT_clamping, *caustics.k_classes,
+    CARDIOID_RENDER_PT_film,
     CARDIOID_RENDER_PT_transparent, CARDIOID_RENDER_PT_pixel_filter, CARDIOID_RENDER_PT_performance,
     CARDIOID_RENDER_PT_threads, CARDIOID_RENDER_PT_memory)
 

@@ -49,8 +49,12 @@ class CARDIOID_VIEWLAYER_PT_passes_light(ViewLayerPanel, bpy.types.Panel):
     def draw(self, context):
         column = split(self.layout).column(heading="Path Class", align=True)
         for one in passes.k_passes:
-            if one.own:
+            if one.own and not one.of_filter:
                 column.prop(context.view_layer.cardioid, one.switch, text=f"{one.engine}  {one.label}")
+        column = split(self.layout).column(heading="Noise Filter", align=True)
+        for one in passes.k_passes:
+            if one.of_filter:
+                column.prop(context.view_layer.cardioid, one.switch)
 
 
 _classes = (CARDIOID_VIEWLAYER_PT_override, CARDIOID_VIEWLAYER_PT_passes, CARDIOID_VIEWLAYER_PT_passes_data,

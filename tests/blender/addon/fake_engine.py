@@ -10,7 +10,9 @@ import threading
 import time
 from types import SimpleNamespace
 
+import fake_film
 import numpy as np
+from fake_film import Error, Film, FilterJob  # noqa: F401  (a part of the module that this stands for)
 
 behaviour = SimpleNamespace()
 scenes: list[Scene] = []
@@ -32,12 +34,7 @@ def reset() -> None:
     behaviour.on_sample = None         # called with the session after each sample
     scenes.clear()
     sessions.clear()
-
-
-class Error(Exception):
-    def __init__(self, problems):
-        super().__init__("; ".join(problems))
-        self.problems = list(problems)
+    fake_film.reset()
 
 
 def integrators():
@@ -145,6 +142,12 @@ class Session:
         whole = self.settings["width"], self.settings["height"]
         crop = tuple(self.settings.get("crop", (0, 0, 0, 0)))
         return Frame(crop[2:] if crop[2] and not behaviour.whole_frame else whole, self._samples)
+
+    def film(self):
+        frame = self.frame()
+        if frame is None or not self.settings.get("record_clusters", True):
+            return None
+        return Film(frame.width, frame.height, frame.samples, self.settings)
 
     def warnings(self):
         return list(behaviour.warnings)

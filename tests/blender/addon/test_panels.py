@@ -28,6 +28,8 @@ class Layout:
         self.drawn.append(name)
 
     def operator(self, name, **_keywords):
+        group, operator = name.split(".")
+        assert hasattr(getattr(bpy.ops, group), operator), name
         self.drawn.append(name)
         return SimpleNamespace()
 
@@ -39,7 +41,10 @@ class Layout:
 def drawn_by(panel) -> list:
     """What a panel draws in the present file: names of properties and operators, and ("label", text)."""
     drawn = []
-    panel.draw(SimpleNamespace(layout=Layout(drawn)), bpy.context)
+    shown = SimpleNamespace(layout=Layout(drawn), bl_space_type=panel.bl_space_type)
+    for part in ("draw_header", "draw_header_preset", "draw"):
+        if hasattr(panel, part):
+            getattr(panel, part)(shown, bpy.context)
     return drawn
 
 
@@ -109,7 +114,8 @@ def test_every_caustics_setting_is_in_a_panel_and_has_a_tooltip(settings):
         for panel in caustics.k_classes:
             shown |= set(names_of(panel))
     own = {setting.name for setting in k_settings if setting.cycles is None}
-    assert own - shown == {"threads", "memory_limit", "texture_cache", "robust_intersection"}
+    tuning = {setting.name for setting in k_settings if setting.tunes} | {"keep_film", "live_filter", "save_film"}
+    assert own - shown - tuning == {"threads", "memory_limit", "texture_cache", "robust_intersection"}
     for name in shown:
         described = settings.bl_rna.properties[name]
         assert len(described.description) > 20 and not described.description.endswith("."), name
@@ -130,4 +136,4 @@ def test_light_passes_are_offered_by_class(settings):
     from cardioid.ui import view_layer
 
     assert names_of(view_layer.CARDIOID_VIEWLAYER_PT_passes_light) == [
-        f"use_pass_{name}" for name in ("d1", "d2", "d3", "c1", "c2")]
+        f"use_pass_{name}" for name in ("d1", "d2", "d3", "c1", "c2", "raw", "filtered", "withheld")]

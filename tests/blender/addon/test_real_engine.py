@@ -18,7 +18,7 @@ pytestmark = conftest.needs_engine
 
 @pytest.fixture
 def scene(fresh_file, monkeypatch):
-    """The factory file with Cardioid on the compiled engine, small and quick."""
+    """The factory file with Cardioid on the compiled engine, small and quick, the picture as it is traced."""
     import cardioid
 
     monkeypatch.delitem(sys.modules, conftest.k_core, raising=False)
@@ -29,6 +29,7 @@ def scene(fresh_file, monkeypatch):
     scene.render.engine = "CARDIOID"
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 64, 36, 100
     scene.cardioid.samples = 8
+    scene.cardioid.use_filter = scene.cardioid.use_adaptive_sampling = False
     yield scene
     bpy.context.scene.render.engine = "CYCLES"
     cardioid.unregister()

@@ -10,12 +10,16 @@ import addon_utils
 import bpy
 import pytest
 
-k_scene_desc = Path(__file__).resolve().parents[3] / "engine_cpp" / "scene" / "scene_desc.h"
+k_headers = Path(__file__).resolve().parents[3] / "engine_cpp" / "scene"
 
 # property of scene.cardioid: (scene.cycles property, a value that is not the default, another one)
 k_followed = {
     "samples": ("samples", 77, 5),
     "time_limit": ("time_limit", 12.0, 3.0),
+    "use_adaptive_sampling": ("use_adaptive_sampling", False, True),
+    "adaptive_threshold": ("adaptive_threshold", 0.25, 0.125),
+    "adaptive_min_samples": ("adaptive_min_samples", 32, 16),
+    "use_filter": ("use_denoising", False, True),
     "seed": ("seed", 9, 4),
     "use_animated_seed": ("use_animated_seed", True, False),
     "sample_offset": ("sample_offset", 16, 8),
@@ -161,9 +165,16 @@ def test_only_integrators_that_exist_are_offered(fresh_file, fake):
 
 
 def engine_defaults():
-    """Field of the engine's Settings to its default as it is written in C++ ("" without one)."""
-    text = k_scene_desc.read_text()
-    body = re.search(r"struct Settings \{(.*?)\n\};", text, re.S).group(1)
+    """Field of the engine's Settings to its default as it is written in C++ ("" without one). Those of the filter stand
+    beside the others."""
+    fields = declared("scene_desc.h", "Settings")
+    assert "filter" in fields
+    del fields["filter"]
+    return fields | declared("filter_settings.h", "FilterSettings")
+
+
+def declared(header, name):
+    body = re.search(rf"struct {name} \{{(.*?)\n\}};", (k_headers / header).read_text(), re.S).group(1)
     body = re.sub(r"//.*", "", body)
     fields = {}
     for statement in body.split(";"):
