@@ -40,7 +40,7 @@ class FilterScene:
 SCENES = {
     scene.name: scene
     for scene in (
-        FilterScene("glossy_spheres", 8, 32, ("caustic_roughness=0.46",)),
+        FilterScene("glossy_spheres", 8, 48, ("caustic_roughness=0.36",)),
         FilterScene("bust_in_water", 8, 48),
         FilterScene("coloured_grid", 4, 64),
         FilterScene("cornell", 4, 48, chapter=5),

@@ -57,7 +57,7 @@ struct Batch {
         row(s.unfiltered);
         for (auto& l : s.layers) row(l.radiance), row(l.incident);
         row(s.detail);
-        s.mirrored_detail = next();
+        row(s.mirrored_detail);
         row(s.feature_normal);
         s.feature_depth = next();
         s.feature_depth_squared = next();
