@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of clusters, outlier rejection and the filter (thesis chapter 6): quality, cost, pictures."""
+"""Figures of clusters, outlier rejection and the filter (thesis chapter 6): quality, cost, convergence, pictures."""
 
 from __future__ import annotations
 
 import os
 import sys
 
-from . import filter_pictures, filter_quality, filter_tables, store
+from . import filter_convergence, filter_pictures, filter_quality, filter_tables, store
 from .engines import CommandLine
 
-PARTS = {"quality": filter_quality.run, "tables": filter_tables.run, "pictures": filter_pictures.run}
+PARTS = {
+    "quality": filter_quality.run,
+    "tables": filter_tables.run,
+    "convergence": filter_convergence.run,
+    "pictures": filter_pictures.run,
+}
 
 
 def add_arguments(commands) -> None:

@@ -89,6 +89,7 @@ def penumbra(film: filter_runs.Film, path: Path) -> None:
             color = pyplot.cm.viridis(min(int(cluster["samples"]) / film.job.samples, 1.0))
             right.plot([step, step], [low, max(high, low * 1.03)], color=color, linewidth=2.2, solid_capstyle="butt")
     right.set_yscale("log")
+    right.set_ylim(bottom=0.02 * right.get_ylim()[1])
     right.set_xlabel("pixels along the line")
     right.set_ylabel("luminance of arriving light")
     right.set_title("clusters of direct light; yellow: all samples of the pixel, violet: one", fontsize=9)

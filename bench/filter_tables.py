@@ -22,28 +22,29 @@ OVER_N = {"scene": "", "n": "d", "seconds": ".4f", "rejected": ".4%"}
 BARS = {"rejection": 0.2, "filter": 2.0, "megabytes": 236.0, "overhead": 0.05, "megabytes_1080p": 800.0}
 
 
-def seconds(film: filter_runs.Film, settings: tuple[str, ...], repeats: int) -> tuple[float, dict] | None:
-    """Median seconds of filtering on all threads, and the last run's record."""
-    done = [film.filtered(settings, run) for run in range(repeats)]
+def repeated(film: filter_runs.Film, settings: tuple[str, ...]) -> dict | None:
+    """The record of filtering on all threads, its seconds the medians of several runs."""
+    done = [film.filtered(settings, run) for run in range(REPEATS)]
     if any(one is None for one in done):
         return None
-    return float(np.median([one[0]["seconds"] for one in done])), done[-1][0]
+    times = {
+        key: float(np.median([one[0][key] for one in done])) for key in ("seconds", "rejection_seconds", "cpu_seconds")
+    }
+    return done[-1][0] | times
 
 
 def tables(film: filter_runs.Film, name: str) -> tuple[dict, dict] | None:
     """One scene's rows of tables 6.1 and 6.2."""
-    rejection = seconds(film, filter_methods.FILTERS["rejection"], REPEATS)
-    whole = seconds(film, filter_methods.CLUSTERS, REPEATS)
-    if rejection is None or whole is None:
+    found = repeated(film, filter_methods.CLUSTERS)
+    if found is None:
         return None
     record = film.raw()[0]
-    cpu = record["cpu"] + whole[1]["cpu_seconds"]
+    cpu = record["cpu"] + found["cpu_seconds"]
     plain = filter_methods.plain(film, SAMPLES)
     times = {"scene": name, "who": "ours", "samples": SAMPLES, "render_cpu": record["cpu"]}
     times |= {"equal_samples": round(SAMPLES * cpu / plain.cpu) if plain else None}
     times |= {"render": record["stats"]["seconds"]["render"]}
-    times |= {"rejection": rejection[0], "filter": whole[0] - rejection[0]}
-    found = rejection[1]
+    times |= {"rejection": found["rejection_seconds"], "filter": found["seconds"] - found["rejection_seconds"]}
     sizes = {"scene": name, "who": "ours", "clusters": found["clusters"], "singles": found["singles"]}
     sizes |= {"megabytes": found["film_bytes"] / 1e6, "outliers": found["outlier_share"]}
     return times, sizes
@@ -54,10 +55,10 @@ def over_n(film: filter_runs.Film, name: str) -> list[dict]:
     rows = []
     for n in COUNTS:
         density = f"firefly_density={n / (SIGMA * SIGMA * MU):.7g}"
-        found = seconds(film, (*filter_methods.FILTERS["rejection"], density), REPEATS)
+        found = repeated(film, (*filter_methods.FILTERS["rejection"], density))
         if found is None:
             break
-        rows.append({"scene": name, "n": n, "seconds": found[0], "rejected": found[1]["outlier_share"]})
+        rows.append({"scene": name, "n": n, "seconds": found["rejection_seconds"], "rejected": found["outlier_share"]})
     return rows
 
 
