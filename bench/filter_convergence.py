@@ -18,7 +18,7 @@ COLUMNS = {
     "energy": ".5f",
     "withheld": ".3%",
 }
-"""Errors of raw and filtered picture, and how far the two are apart (relmse); filtered over raw light; light withheld."""
+"""Errors of raw and filtered picture, how far they are apart (relmse); filtered light over raw; light withheld."""
 
 
 def picture(records, options, engine, scene, samples: int, seed: int) -> filter_runs.Film:
