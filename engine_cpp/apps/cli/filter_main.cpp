@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cardioid-filter: filters a film again that cardioid-render --film or the add-on has saved, without rendering.
 #include "apps/cli/output.h"
+#include "apps/filter_range.h"
 #include "film/film_file.h"
 #include "render/filter_job.h"
-#include "scene/validate.h"
 
 #include <CLI/CLI.hpp>
 
@@ -45,9 +45,9 @@ int run(const Options& o) {
     // Whoever calls this wants it filtered, whether or not it was while rendering.
     settings.use_filter = true;
     cli::apply(settings, o.set);
-    const auto problems = scene::validate(settings);
-    for (const auto& p : problems) cli::say("error", p.message);
-    if (!problems.empty()) return 2;
+    const std::vector<std::string> errors = range_errors(settings);
+    for (const std::string& e : errors) cli::say("error", e);
+    if (!errors.empty()) return 2;
     render::FilterJob job(film, settings, o.threads, o.lanes);
     job.start();
     while (!job.wait(0.25)) {

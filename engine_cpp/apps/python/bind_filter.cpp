@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "apps/filter_range.h"
 #include "apps/python/bindings.h"
 #include "apps/python/convert.h"
 #include "film/film_file.h"
@@ -29,8 +30,8 @@ scene::FilterSettings settings_of(const film::Film& film, const py::dict& given)
     nlohmann::json json = scene::write_json(film.filter_settings());
     json.update(to_json(given, "filter settings"));
     auto settings = scene::read_json<scene::FilterSettings>(json);
-    const auto problems = scene::validate(settings);
-    if (!problems.empty()) throw scene::SceneError(scene::messages(problems));
+    const std::vector<std::string> errors = range_errors(settings);
+    if (!errors.empty()) throw scene::SceneError(errors);
     return settings;
 }
 

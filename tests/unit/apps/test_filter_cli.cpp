@@ -100,7 +100,9 @@ TEST_F(FilterCli, WrongSettingsAreExplained) {
     refuse("firefly_density=nan", "firefly_density");
     refuse("filter_method=magic", "magic");
     refuse("samples=4", "samples");
-    EXPECT_EQ(filter(film + " -q -o " + at("x.exr") + " --set filter_size=65").code, 2);
+    const Finished r = filter(film + " -q -o " + at("x.exr") + " --set filter_size=65");
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(r.output, "error: settings has filter_size 65, which is out of range\n");
 }
 
 TEST_F(FilterCli, SettingsAtTheirLimitsWork) {
