@@ -67,7 +67,7 @@ class Film:
         with tempfile.TemporaryDirectory() as folder:
             job = replace(self.job, out=str(self.picture("-raw")))
             command, env = self.engine.command(job, Path(folder))
-            cost = measure.run([*command, "--film", str(self.path)], env=env)
+            cost = measure.run([*command, "--set", "record_clusters=true", "--film", str(self.path)], env=env)
             if cost.code:
                 raise RuntimeError("no film was rendered:\n" + "\n".join(text for _, text in cost.lines[-15:]))
             stats = json.loads((Path(folder) / "stats.json").read_text())
