@@ -12,7 +12,9 @@ from . import exr, measure, quality, reference, regions
 from .engines import Job
 
 ROOT = Path(__file__).resolve().parents[1]
-BASE = ("integrator=hybrid",)
+HYBRID = ("integrator=hybrid",)
+MEASURED = (*HYBRID, "caustic_roughness=0.1")
+"""The add-on's defaults; a file that is exported for path tracing has others."""
 BOUNCES = 16
 FIRST_SEED = 900_001
 """Of the references; measured runs count from 1."""
@@ -33,8 +35,14 @@ class FilterScene:
         return ROOT / "scenes" / f"{self.name}.blend"
 
     def job(self, samples: int, seed: int, width: int, threads: int, settings: tuple[str, ...] = ()) -> Job:
-        """`width` 0: the file's own size."""
-        return Job(str(self.blend), "", samples, seed, threads, BOUNCES, True, width, settings=(*BASE, *settings))
+        """A measured render. `width` 0: the file's own size."""
+        settings = (*MEASURED, *settings)
+        return Job(str(self.blend), "", samples, seed, threads, BOUNCES, True, width, settings=settings)
+
+    def reference_job(self, width: int, threads: int) -> Job:
+        """One part of the reference, but for its seed."""
+        settings = (*HYBRID, *self.settings)
+        return Job(str(self.blend), "", self.samples, 0, threads, BOUNCES, True, width, settings=settings)
 
 
 SCENES = {
@@ -70,7 +78,7 @@ def surface(cache: Path, scene: FilterScene, width: int) -> regions.Surface:
 
 def referee(records, cache: Path, engine, scene: FilterScene, width: int, threads: int) -> quality.Referee | None:
     """The scene's reference and regions; None if time ran out."""
-    job = scene.job(scene.samples, 0, width, threads, scene.settings)
+    job = scene.reference_job(width, threads)
     found = reference.make(records, cache, engine, scene.name, job, scene.parts, FIRST_SEED)
     if found is None or found.parts < scene.parts:
         return None
