@@ -127,7 +127,8 @@ void ClusterEditor::add(List& list, const float (&radiance)[3], float incident, 
     if (++list.count > k_max_clusters) merge(list);
 }
 
-/// Makes one of the two neighbours that are most alike (thesis 6.7 as spec 4 reads it; its factor 1/max_n changes no order).
+/// Makes one of the two neighbours that are most alike (thesis 6.7 as spec 4 reads it; the factor 1/max_n changes no
+/// order).
 void ClusterEditor::merge(List& list) {
     Cluster* const clusters = list.clusters;
     int best = 0;

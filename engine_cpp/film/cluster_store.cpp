@@ -15,13 +15,13 @@ ClusterStore::ClusterStore(int width, int height)
 
 std::span<const Cluster> ClusterStore::view(int x, int y, int layer) const {
     const Block& block = blocks_[static_cast<std::size_t>(y / k_block * columns_ + x / k_block)];
-    const std::uint16_t* begin = block.begin + list_index(x, y, layer);
+    const std::uint16_t* begin = block.begin + static_cast<std::size_t>(pixel_index(x, y) * k_layers + layer);
     return {block.clusters.get() + begin[0], static_cast<std::size_t>(begin[1] - begin[0])};
 }
 
 void ClusterStore::assign(int x, int y, int layer, std::span<const Cluster> clusters) {
     Block& block = blocks_[static_cast<std::size_t>(y / k_block * columns_ + x / k_block)];
-    const std::size_t list = list_index(x, y, layer);
+    const std::size_t list = static_cast<std::size_t>(pixel_index(x, y) * k_layers + layer);
     const std::size_t before = block.begin[list], after = block.begin[list + 1], end = block.begin[k_block_lists];
     auto packed = allocate(end - (after - before) + clusters.size());
     Cluster* to = std::copy_n(block.clusters.get(), before, packed.get());

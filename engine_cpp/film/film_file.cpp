@@ -31,6 +31,15 @@ constexpr std::uint32_t k_version = 1;
 constexpr std::uint64_t k_longest_json = std::uint64_t{1} << 16;
 constexpr int k_widest = 65536;
 
+/// Pixels of a block by rows, as files have them.
+constexpr auto k_rows = [] {
+    std::array<int, k_block * k_block> pixels{};
+    for (int y = 0; y < k_block; ++y) {
+        for (int x = 0; x < k_block; ++x) pixels[static_cast<std::size_t>(y * k_block + x)] = pixel_index(x, y);
+    }
+    return pixels;
+}();
+
 struct FileHeader {
     std::array<char, 8> magic = k_magic;
     std::uint32_t version = k_version;
@@ -154,6 +163,16 @@ private:
     scene::Checksum sum_;
 };
 
+std::array<std::uint8_t, k_block_lists> FilmFile::counts_of(const ClusterStore::Block& block) {
+    std::array<std::uint8_t, k_block_lists> counts;
+    auto* to = counts.data();
+    for (const int pixel : k_rows) {
+        const std::uint16_t* begin = block.begin + pixel * k_layers;
+        for (int l = 0; l < k_layers; ++l) *to++ = static_cast<std::uint8_t>(begin[l + 1] - begin[l]);
+    }
+    return counts;
+}
+
 void FilmFile::save(const Film& film, const std::filesystem::path& path) {
     const Contents contents{.region = film.region_,
                             .exposure = film.exposure_,
@@ -177,14 +196,16 @@ void FilmFile::save(const Film& film, const std::filesystem::path& path) {
         put(std::as_bytes(std::span(film.pixels_)));
         put(std::as_bytes(std::span(film.odd_)));
         put(std::as_bytes(std::span(film.photons_)));
+        for (const ClusterStore::Block& b : film.clusters_.blocks_) put(std::as_bytes(std::span(counts_of(b))));
+        std::vector<Cluster> rows;
         for (const ClusterStore::Block& b : film.clusters_.blocks_) {
-            std::array<std::uint8_t, k_block_lists> counts;
-            for (std::size_t i = 0; i < counts.size(); ++i)
-                counts[i] = static_cast<std::uint8_t>(b.begin[i + 1] - b.begin[i]);
-            put(std::as_bytes(std::span(counts)));
+            rows.clear();
+            for (const int pixel : k_rows) {
+                const std::uint16_t* begin = b.begin + pixel * k_layers;
+                rows.insert(rows.end(), b.clusters.get() + begin[0], b.clusters.get() + begin[k_layers]);
+            }
+            put(std::as_bytes(std::span(rows)));
         }
-        for (const ClusterStore::Block& b : film.clusters_.blocks_)
-            put(std::as_bytes(std::span(b.clusters.get(), b.begin[k_block_lists])));
         out.write(bytes_of(sum.value()));
     });
 }
@@ -227,21 +248,34 @@ Film FilmFile::read(const std::filesystem::path& path) {
     return film;
 }
 
+void FilmFile::set_counts(ClusterStore::Block& block, std::span<const std::uint8_t, k_block_lists> counts) {
+    if (std::ranges::any_of(counts, [](int n) { return n > k_max_clusters; }))
+        throw SceneError("is damaged: a pixel has too many clusters");
+    for (int row = 0; row < k_block * k_block; ++row)
+        std::copy_n(counts.data() + row * k_layers, k_layers,
+                    block.begin + 1 + k_rows[static_cast<std::size_t>(row)] * k_layers);
+    std::partial_sum(std::begin(block.begin), std::end(block.begin), std::begin(block.begin));
+}
+
 void FilmFile::read_clusters(ClusterStore& store, std::uint64_t total, Reader& in) {
     std::vector<std::uint8_t> counts(store.blocks_.size() * k_block_lists);
     in.read(counts);
     std::uint64_t sum = 0;
+    std::vector<Cluster> rows;
     for (std::size_t b = 0; b < store.blocks_.size(); ++b) {
         ClusterStore::Block& block = store.blocks_[b];
-        for (std::size_t i = 0; i < k_block_lists; ++i) {
-            const std::uint8_t count = counts[b * k_block_lists + i];
-            if (count > k_max_clusters) throw SceneError("is damaged: a pixel has too many clusters");
-            block.begin[i + 1] = static_cast<std::uint16_t>(block.begin[i] + count);
-        }
-        sum += block.begin[k_block_lists];
+        set_counts(block, std::span(counts).subspan(b * k_block_lists).first<k_block_lists>());
+        rows.resize(block.begin[k_block_lists]);
+        sum += rows.size();
         if (sum > total) break;
-        block.clusters = ClusterStore::allocate(block.begin[k_block_lists]);
-        in.read(std::as_writable_bytes(std::span(block.clusters.get(), block.begin[k_block_lists])));
+        in.read(rows);
+        block.clusters = ClusterStore::allocate(rows.size());
+        const Cluster* from = rows.data();
+        for (const int pixel : k_rows) {
+            const std::uint16_t* begin = block.begin + pixel * k_layers;
+            std::copy_n(from, begin[k_layers] - begin[0], block.clusters.get() + begin[0]);
+            from += begin[k_layers] - begin[0];
+        }
     }
     if (sum != total) throw SceneError("is damaged: its clusters are not as many as it says");
 }
