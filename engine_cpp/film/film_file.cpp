@@ -196,7 +196,7 @@ void FilmFile::save(const Film& film, const std::filesystem::path& path) {
         put(std::as_bytes(std::span(film.pixels_)));
         put(std::as_bytes(std::span(film.odd_)));
         put(std::as_bytes(std::span(film.photons_)));
-        for (const ClusterStore::Block& b : film.clusters_.blocks_) put(std::as_bytes(std::span(counts_of(b))));
+        for (const ClusterStore::Block& b : film.clusters_.blocks_) put(bytes_of(counts_of(b)));
         std::vector<Cluster> rows;
         for (const ClusterStore::Block& b : film.clusters_.blocks_) {
             rows.clear();
