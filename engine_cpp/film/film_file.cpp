@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film/film_file.h"
 
-#include "film/foreign.h"
+#include "film/film_layout.h"
 #include "scene/checksum.h"
 #include "scene/error.h"
-#include "scene/json.h"
-#include "scene/limits.h"
 #include "scene/replace_file.h"
-#include "scene/validate.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,16 +15,9 @@
 namespace cardioid::film {
 namespace {
 
-using scene::Json;
 using scene::SceneError;
 
 static_assert(std::endian::native == std::endian::little, "film files are little-endian");
-
-constexpr std::array<char, 8> k_magic{'C', 'A', 'R', 'D', 'F', 'L', 'M', '\n'};
-constexpr std::uint32_t k_version = 1;
-/// Far more than its keys need; a damaged length must not allocate.
-constexpr std::uint64_t k_longest_json = std::uint64_t{1} << 16;
-constexpr int k_widest = 65536;
 
 /// Pixels of a block by rows, as files have them.
 constexpr auto k_rows = [] {
@@ -40,100 +28,9 @@ constexpr auto k_rows = [] {
     return pixels;
 }();
 
-struct FileHeader {
-    std::array<char, 8> magic = k_magic;
-    std::uint32_t version = k_version;
-    std::uint32_t reserved = 0;
-    std::uint64_t json_bytes = 0;
-    std::uint64_t clusters = 0;
-};
-static_assert(sizeof(FileHeader) == 32);
-
-/// What stands in the file's JSON.
-struct Contents {
-    Region region;
-    float exposure = 1;
-    bool transparent = false, odd = false, photons = false, clusters = false;
-    scene::FilterSettings filter;
-};
-
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
     return std::as_bytes(std::span(&value, 1));
-}
-
-Json to_json(const Contents& c) {
-    return {{"region", {c.region.x, c.region.y, c.region.width, c.region.height}},
-            {"exposure", c.exposure},
-            {"transparent_film", c.transparent},
-            {"odd_samples", c.odd},
-            {"photons", c.photons},
-            {"clusters", c.clusters},
-            {"filter", scene::write_json(c.filter)}};
-}
-
-Contents from_json(const std::string& text) {
-    const Json json = Json::parse(text);
-    Contents c;
-    const Json& numbers = json.at("region");
-    if (!std::ranges::all_of(numbers, [](const Json& n) { return n.is_number_integer(); }))
-        throw SceneError("is damaged: its region is not in pixels");
-    const auto region = numbers.get<std::array<std::int64_t, 4>>();
-    const auto side = [](std::int64_t at, std::int64_t size) {
-        return at >= 0 && size >= 1 && size <= k_widest && at <= k_widest - size;
-    };
-    if (!side(region[0], region[2]) || !side(region[1], region[3]))
-        throw SceneError("is damaged: a picture of " + std::to_string(region[2]) + " × " + std::to_string(region[3]) +
-                         " pixels");
-    c.region = {static_cast<int>(region[0]), static_cast<int>(region[1]), static_cast<int>(region[2]),
-                static_cast<int>(region[3])};
-    const auto exposure = json.at("exposure").get<double>();
-    if (!(std::abs(exposure) <= std::numeric_limits<float>::max()))
-        throw SceneError("is damaged: its exposure is not a number");
-    c.exposure = static_cast<float>(exposure);
-    c.transparent = json.at("transparent_film").get<bool>();
-    c.odd = json.at("odd_samples").get<bool>();
-    c.photons = json.at("photons").get<bool>();
-    c.clusters = json.at("clusters").get<bool>();
-    c.filter = scene::read_json<scene::FilterSettings>(json.at("filter"));
-    scene::validate(c.filter);
-    return c;
-}
-
-template <class Reader>
-FileHeader read_header(std::ifstream& file, Reader& in, std::uint64_t size) {
-    FileHeader header;
-    const std::size_t have = std::min<std::uint64_t>(size, sizeof header);
-    in.read(std::as_writable_bytes(std::span(&header, 1)).first(have));
-    if (have < k_magic.size() || header.magic != k_magic) {
-        file.seekg(0);
-        std::string start(std::min<std::uint64_t>(size, 16), '\0');
-        file.read(start.data(), static_cast<std::streamsize>(start.size()));
-        throw SceneError("is not a Cardioid film file" + what_it_is(start));
-    }
-    if (have < sizeof header) throw SceneError("is truncated");
-    if (header.version > k_version)
-        throw SceneError("was written by a newer Cardioid (file version " + std::to_string(header.version) +
-                         ", this one reads up to " + std::to_string(k_version) + ")");
-    if (header.version == 0 || header.json_bytes > k_longest_json) throw SceneError("is damaged: its header is wrong");
-    return header;
-}
-
-/// Compares the length of the file with what its header promises, so that no array is larger than the file.
-void check_size(const Contents& c, const FileHeader& header, std::uint64_t size, std::uint64_t per_pixel) {
-    const auto columns = static_cast<std::uint64_t>((c.region.width + k_block - 1) / k_block),
-               rows = static_cast<std::uint64_t>((c.region.height + k_block - 1) / k_block);
-    const std::uint64_t lists = c.clusters ? columns * rows * k_block_lists : 0;
-    if (header.clusters > lists * k_max_clusters)
-        throw SceneError("is damaged: it has more clusters than pixels can hold");
-    const std::uint64_t pixels =
-        static_cast<std::uint64_t>(c.region.width) * static_cast<std::uint64_t>(c.region.height);
-    const std::uint64_t need = sizeof header + header.json_bytes + pixels * per_pixel + lists +
-                               header.clusters * sizeof(Cluster) + sizeof(std::uint64_t);
-    if (size < need) throw SceneError("is truncated");
-    if (size > need) throw SceneError("is damaged: it is longer than it should be");
-    if (need > static_cast<std::uint64_t>(scene::machine_memory()))
-        throw SceneError("needs " + std::to_string(need >> 20) + " MB, more than this machine's memory");
 }
 
 }  // namespace
@@ -174,16 +71,15 @@ std::array<std::uint8_t, k_block_lists> FilmFile::counts_of(const ClusterStore::
 }
 
 void FilmFile::save(const Film& film, const std::filesystem::path& path) {
-    const Contents contents{.region = film.region_,
-                            .exposure = film.exposure_,
-                            .transparent = film.transparent_,
-                            .odd = !film.odd_.empty(),
-                            .photons = !film.photons_.empty(),
-                            .clusters = film.has_clusters(),
-                            .filter = film.filter_};
-    std::string text = to_json(contents).dump();
-    text.append((16 - text.size() % 16) % 16, ' ');
-    const FileHeader header{.json_bytes = text.size(),
+    const std::string text = write_contents({.region = film.region_,
+                                             .exposure = film.exposure_,
+                                             .transparent = film.transparent_,
+                                             .odd = !film.odd_.empty(),
+                                             .photons = !film.photons_.empty(),
+                                             .clusters = film.has_clusters(),
+                                             .pixel_bytes = sizeof(Film::Pixel),
+                                             .filter = film.filter_});
+    const FilmHeader header{.json_bytes = text.size(),
                             .clusters = static_cast<std::uint64_t>(film.clusters_.cluster_count())};
     scene::replace_file(path, [&](scene::FileWriter& out) {
         scene::Checksum sum;
@@ -219,13 +115,20 @@ Film FilmFile::read(const std::filesystem::path& path) {
     if (!file || error) throw SceneError("cannot be opened");
 
     Reader in(file);
-    const FileHeader header = read_header(file, in, size);
+    std::array<std::byte, sizeof(FilmHeader)> start{};
+    const auto begun = std::span(start).first(std::min<std::uint64_t>(size, start.size()));
+    in.read(begun);
+    const FilmHeader header = read_film_header(begun);
     if (header.json_bytes > size - sizeof header) throw SceneError("is truncated");
     std::string text(header.json_bytes, '\0');
     in.read(std::as_writable_bytes(std::span(text)));
-    const Contents c = from_json(text);
-    check_size(c, header, size,
-               sizeof(Film::Pixel) + (c.odd ? sizeof(Film::Rgb) : 0) + (c.photons ? sizeof(Film::PhotonMeans) : 0));
+    const FilmContents c = read_contents(text);
+    if (c.pixel_bytes != sizeof(Film::Pixel))
+        throw SceneError("was written by another Cardioid: its pixels have " + std::to_string(c.pixel_bytes) +
+                         " bytes, not " + std::to_string(sizeof(Film::Pixel)));
+    check_film_size(
+        c, header, size,
+        sizeof(Film::Pixel) + (c.odd ? sizeof(Film::Rgb) : 0) + (c.photons ? sizeof(Film::PhotonMeans) : 0));
 
     scene::Settings settings;
     settings.width = c.region.x + c.region.width;
@@ -306,8 +209,6 @@ Film FilmFile::load(const std::filesystem::path& path) {
         return read(path);
     } catch (const SceneError& error) {
         throw SceneError("film file '" + path.string() + "' " + error.what());
-    } catch (const Json::exception& error) {
-        throw SceneError("film file '" + path.string() + "' is damaged: " + error.what());
     } catch (const std::bad_alloc&) { throw SceneError("film file '" + path.string() + "' does not fit in memory"); }
 }
 

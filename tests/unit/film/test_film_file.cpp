@@ -238,6 +238,13 @@ TEST_F(FilmFileHeader, NewerVersion) {
     expect_error("newer Cardioid (file version 2, this one reads up to 1)");
 }
 
+TEST_F(FilmFileHeader, OtherPixels) {
+    const std::size_t at = bytes_.find("\"pixel_bytes\":") + 14;
+    bytes_[at] = '9';
+    write_signed(bytes_);
+    expect_error("was written by another Cardioid");
+}
+
 TEST_F(FilmFileHeader, AbsurdCounts) {
     for (const std::uint64_t count : {1ull << 20, 1ull << 40, ~0ull, ~0ull / 32 + 1}) {
         put(24, count);
