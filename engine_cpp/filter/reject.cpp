@@ -2,6 +2,7 @@
 #include "filter/reject.h"
 
 #include "filter/reject_kernel.h"
+#include "filter/reject_measure.h"
 #include "filter/reject_rules.h"
 
 #include <algorithm>
@@ -15,24 +16,20 @@ using film::Cluster;
 
 constexpr int k_tile = 4 * film::k_block;
 
-struct Range {
-    float low, high;
+/// Below this D̂ says nothing of a pixel's texture.
+constexpr float k_darkest = 1e-4f;
+
+/// A cluster of the tested pixel.
+struct Candidate {
+    Measure measure;
+    int index = 0;
+    std::uint32_t samples = 0;
 };
 
-/// The tested cluster's luminances and those that are like them.
-Range stretched(const Cluster& c, float sensitivity) { return {c.min * (1 - sensitivity), c.max * (1 + sensitivity)}; }
-
-std::int64_t whole(const Cluster& c) { return static_cast<std::int64_t>(c.samples) * k_evidence; }
-
-/// How many of a cluster's samples lie in a range that it touches. Both its ends are samples; the rest is between them.
-std::int64_t part_in(const Cluster& c, const Range& range) {
-    const bool low = c.min >= range.low, high = c.max <= range.high;
-    if (low && high) return whole(c);
-    const float share = (std::min(c.max, range.high) - std::max(c.min, range.low)) / (c.max - c.min);
-    const float between = share * static_cast<float>(k_evidence);
-    return (low || high ? k_evidence : 0) +
-           (static_cast<std::int64_t>(c.samples) - 2) * static_cast<std::int64_t>(between);
-}
+struct Candidates {
+    Candidate list[film::k_max_clusters];
+    int count = 0;
+};
 
 class Rejector {
 public:
@@ -64,6 +61,7 @@ private:
     /// What decides about most neighbours without a look at their clusters.
     struct Pixel {
         float brightest[film::k_layers] = {};  ///< 0: no clusters
+        float detail = 0;                      ///< luminance of D̂; 0: too dark, or not looked at
         std::uint32_t samples = 0;
     };
 
@@ -79,9 +77,17 @@ private:
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x); }
     void survey_pixel(int x, int y, RejectionStats& stats);
     void reject_pixel(int x, int y, RejectionStats& stats);
-    /// Adds samples like c's to `found` until they are enough.
-    bool supported(int x, int y, int layer, const Cluster& c, std::int64_t needed, std::int64_t& found) const;
-    std::int64_t evidence(std::span<const Cluster> list, const Range& like, const Cluster* without) const;
+    Measure measure(const Cluster& c) const { return rules_.incident ? measure_incident(c) : measure_added(c); }
+    /// Brightest first.
+    Candidates candidates(int x, int y, int layer) const;
+    /// Adds samples like the candidate's to `found` until they are enough.
+    bool supported(int x, int y, int layer, const Candidates& own, int tested, std::int64_t needed,
+                   std::int64_t& found) const;
+    /// Samples of q that are like those in `like`, as they are or × `texture`: as they would be on p's texture.
+    std::int64_t evidence(std::span<const Cluster> list, const Range& like, float texture) const;
+    std::int64_t counted(const Measure& m, const Range& like) const {
+        return rules_.whole ? m.evidence : part_in(m, like);
+    }
 
     RejectionRules rules_;
     const film::ClusterStore& clusters_;
@@ -97,40 +103,67 @@ private:
 void Rejector::survey_pixel(int x, int y, RejectionStats& stats) {
     Pixel& pixel = pixels_[index(x, y)];
     pixel.samples = film_.samples(x, y);
+    if (!rules_.incident) {
+        const float detail = film::luminance(film_.features(x, y).detail);
+        pixel.detail = detail > k_darkest ? detail : 0;
+    }
     for (int layer = 0; layer < film::k_layers; ++layer) {
         const std::span<const Cluster> list = clusters_.view(x, y, layer);
-        if (list.empty()) continue;
-        pixel.brightest[layer] = list.back().max;
         stats.clusters += static_cast<std::int64_t>(list.size());
-        for (const Cluster& c : list) stats.singles += c.samples == 1;
+        for (const Cluster& c : list) {
+            stats.singles += c.samples == 1;
+            pixel.brightest[layer] = std::max(pixel.brightest[layer], measure(c).range.high);
+        }
     }
 }
 
-std::int64_t Rejector::evidence(std::span<const Cluster> list, const Range& like, const Cluster* without) const {
+Candidates Rejector::candidates(int x, int y, int layer) const {
+    Candidates c;
+    for (const Cluster& cluster : clusters_.view(x, y, layer)) {
+        const Candidate next{measure(cluster), c.count, cluster.samples};
+        int at = c.count++;
+        for (; at > 0 && c.list[at - 1].measure.range.high <= next.measure.range.high; --at)
+            c.list[at] = c.list[at - 1];
+        c.list[at] = next;
+    }
+    return c;
+}
+
+std::int64_t Rejector::evidence(std::span<const Cluster> list, const Range& like, float texture) const {
     std::int64_t sum = 0;
     for (const Cluster& c : list) {
-        if (c.max < like.low || c.min > like.high || &c == without) continue;
-        sum += rules_.whole ? whole(c) : part_in(c, like);
+        const Measure m = measure(c);
+        if (m.range.touches(like)) {
+            sum += counted(m, like);
+        } else if (const Measure same{m.range * texture, m.evidence}; same.range.touches(like)) {
+            sum += counted(same, like);
+        }
     }
     return sum;
 }
 
-bool Rejector::supported(int x, int y, int layer, const Cluster& c, std::int64_t needed, std::int64_t& found) const {
-    const Range like = stretched(c, sensitivity_);
+bool Rejector::supported(int x, int y, int layer, const Candidates& own, int tested, std::int64_t needed,
+                         std::int64_t& found) const {
+    const Range& range = own.list[tested].measure.range;
+    // Only the tested cluster is stretched: a neighbour's ends are samples.
+    const Range like{range.low * (1 - sensitivity_), range.high * (1 + sensitivity_)};
     // As printed, the pixel's own brighter clusters are in `found` already.
-    if (!rules_.accumulate) found += evidence(clusters_.view(x, y, layer), like, &c);
+    for (int i = 0; i < own.count && !rules_.accumulate; ++i) {
+        if (i != tested && own.list[i].measure.range.touches(like)) found += counted(own.list[i].measure, like);
+    }
     if (found >= needed) return true;
-    const std::uint32_t own_samples = pixels_[index(x, y)].samples;
+    const Pixel& p = pixels_[index(x, y)];
     const bool inside = kernel_.inside(x, y);
     for (const RejectionKernel::Step& step : kernel_.steps()) {
         const int qx = x + step.dx, qy = y + step.dy;
         if (!inside && (qx < 0 || qy < 0 || qx >= width_ || qy >= height_)) continue;
         const Pixel& q = pixels_[index(qx, qy)];
-        if (q.brightest[layer] < like.low) continue;
-        std::int64_t more = evidence(clusters_.view(qx, qy, layer), like, nullptr);
-        // A neighbour with more samples would have fewer like ones had it as many as this pixel. One with fewer has what it has.
-        if (q.samples > own_samples) {
-            more = static_cast<std::int64_t>(static_cast<double>(more) * own_samples / static_cast<double>(q.samples));
+        const float texture = p.detail > 0 && q.detail > 0 ? p.detail / q.detail : 1.0f;
+        if (q.brightest[layer] * std::max(texture, 1.0f) < like.low) continue;
+        std::int64_t more = evidence(clusters_.view(qx, qy, layer), like, texture);
+        // With as many samples as this pixel a neighbour with more would have fewer like ones; one with fewer has what it has.
+        if (q.samples > p.samples) {
+            more = static_cast<std::int64_t>(static_cast<double>(more) * p.samples / static_cast<double>(q.samples));
         }
         found += more;
         if (found >= needed) return true;
@@ -142,22 +175,21 @@ void Rejector::reject_pixel(int x, int y, RejectionStats& stats) {
     const std::int64_t needed = kernel_.needed(x, y);
     float accepted = 0;
     for (int layer = 0; layer < film::k_layers; ++layer) {
-        const std::span<const Cluster> list = clusters_.view(x, y, layer);
+        const Candidates own = candidates(x, y, layer);
+        std::uint8_t& bits = bits_[index(x, y) * film::k_layers + static_cast<std::size_t>(layer)];
         std::int64_t found = 0;
-        int i = static_cast<int>(list.size()) - 1;
-        for (; i >= 0; --i) {
-            const Cluster& c = list[static_cast<std::size_t>(i)];
-            if (c.min <= accepted) break;
-            found = (rules_.accumulate ? found : 0) + whole(c);
-            if (found >= needed || supported(x, y, layer, c, needed, found)) break;
+        for (int i = 0; i < own.count; ++i) {
+            const Candidate& c = own.list[i];
+            found = (rules_.accumulate ? found : 0) + c.measure.evidence;
+            // Once a cluster is accepted, so are all that are no brighter: the rest of the list.
+            if (c.measure.range.low <= accepted || found >= needed || supported(x, y, layer, own, i, needed, found)) {
+                accepted = std::max(accepted, c.measure.range.high);
+                break;
+            }
+            bits = static_cast<std::uint8_t>(bits | 1u << c.index);
+            ++stats.rejected;
             stats.rejected_samples += c.samples;
         }
-        // Lists ascend: all below an accepted cluster are accepted.
-        if (i >= 0) accepted = std::max(accepted, list[static_cast<std::size_t>(i)].max);
-        const int kept = i + 1, count = static_cast<int>(list.size());
-        stats.rejected += count - kept;
-        bits_[index(x, y) * film::k_layers + static_cast<std::size_t>(layer)] =
-            static_cast<std::uint8_t>((1u << count) - (1u << kept));
     }
 }
 

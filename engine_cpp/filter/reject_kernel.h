@@ -2,15 +2,13 @@
 // The pixels around a pixel in which samples are looked for, and how many must be found there.
 #pragma once
 
+#include "filter/reject_measure.h"
 #include "scene/filter_settings.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace cardioid::filter {
-
-/// Samples are counted in whole numbers of this part of one, so that their sum does not depend on the order.
-inline constexpr std::int64_t k_evidence = 65536;
 
 class RejectionKernel {
 public:

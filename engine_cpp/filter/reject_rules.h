@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two readings of thesis Algorithm 4, apart so that they can be measured against each other (docs/filter.md).
+// Readings of thesis Algorithm 4, apart so that they can be measured against each other (docs/filter.md).
 #pragma once
 
 #include "filter/reject.h"
@@ -13,11 +13,14 @@ struct RejectionRules {
     /// A neighbour's cluster that overlaps at all counts whole, as printed. Otherwise by the samples that surely or likely
     /// overlap: its ends, and of the rest the share of eq. 6.8.
     bool whole = false;
+    /// Clusters are ranked and compared by the light that arrives, as printed. Otherwise by the light that they add to the
+    /// pixel (reject_measure.h).
+    bool incident = false;
 };
 
 constexpr RejectionRules rejection_rules(scene::FilterMethod method) {
     const bool thesis = method == scene::FilterMethod::thesis;
-    return {thesis, thesis};
+    return {thesis, thesis, thesis};
 }
 
 /// reject() by given rules instead of those of settings.filter_method.

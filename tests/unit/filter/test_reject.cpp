@@ -124,24 +124,105 @@ TEST(Reject, RulesDifferAsPrinted) {
     EXPECT_EQ(filter::reject(film, thesis, filter::run_serially).withheld(20, 20, 0), 0b1110) << "density runs on";
 }
 
+/// A cluster of a white wall whose samples bring as much as their mean.
+film::Cluster wide(float min, float max, std::uint32_t samples, float mean) {
+    film::Cluster c;
+    const float n = static_cast<float>(samples);
+    for (float& r : c.radiance) r = n * mean;
+    c.incident = n * mean;
+    c.radiance_squared = film::luminance(c.radiance) * film::luminance(c.radiance) / n;
+    c.min = min;
+    c.max = max;
+    c.samples = samples;
+    return c;
+}
+
 TEST(Reject, WideNeighbourCountsInPart) {
     film::Film film = dark_with({{20, 20, 0, 100}});
-    film::Cluster wide;
-    wide.min = 1;
-    wide.max = 1000;
+    float max = 1000;
     const auto kept = [&](std::uint32_t samples, bool whole) {
-        wide.samples = samples;
-        film.clusters().assign(21, 20, 0, std::span(&wide, 1));
-        const filter::RejectionRules rules{false, whole};
+        const film::Cluster c = wide(1, max, samples, 60);
+        film.clusters().assign(21, 20, 0, std::span(&c, 1));
+        const filter::RejectionRules rules{false, whole, false};
         return filter::reject_by(rules, film, {}, filter::run_serially).withheld(20, 20, 0) == 0;
     };
     EXPECT_TRUE(kept(3, true));
     EXPECT_FALSE(kept(3, false)) << "the ends lie outside, between them is one sample";
     EXPECT_FALSE(kept(31, false)) << "29 × 100/999 < 3";
     EXPECT_TRUE(kept(33, false)) << "31 × 100/999 > 3";
-    wide.max = 120;
+    max = 120;
     EXPECT_FALSE(kept(4, false)) << "one end, and 2 × 70/119";
     EXPECT_TRUE(kept(6, false)) << "one end, and 4 × 70/119";
+}
+
+/// A sample of a glossy lobe arrives dim, because it was likely, and is added bright.
+void glossy(film::Sample& s, float incident, float added) {
+    for (int k = 0; k < 3; ++k) {
+        s.layers[2].incident[k] = incident;
+        s.layers[2].radiance[k] = s.radiance[2][k] = added;
+    }
+}
+
+film::Film metal(const std::function<bool(int x, int y, int i)>& shines) {
+    return make_film({40, 40, 16}, [&](int x, int y, int i) {
+        film::Sample s = wall();
+        light(s, 0, 0.5f + noise(x, y, i));
+        glossy(s, 0.05f + 0.1f * noise(x, y, i, 1), 0.05f);
+        if (shines(x, y, i)) glossy(s, 0.1f, 8);
+        return s;
+    });
+}
+
+TEST(Reject, BrightnessIsWhatIsAdded) {
+    const film::Film film = metal([](int x, int y, int i) { return x == 20 && y == 20 && i == 9; });
+    filter::RejectionStats stats;
+    const filter::Rejection r = reject(film, &stats);
+    EXPECT_EQ(bits_set(r), 1);
+    EXPECT_EQ(std::popcount(r.withheld(20, 20, 2)), 1);
+    scene::FilterSettings thesis;
+    thesis.filter_method = scene::FilterMethod::thesis;
+    EXPECT_EQ(bits_set(filter::reject(film, thesis, filter::run_serially)), 0) << "it arrives as dim as the others";
+    EXPECT_EQ(bits_set(reject(metal([](int x, int, int i) { return x > 15 && i % 8 == 0; }))), 0) << "a highlight";
+}
+
+TEST(Reject, OneSampleDoesNotHideBehindThoseOfItsCluster) {
+    film::Film film = dark_with({{20, 20, 1, 100}});
+    film::Cluster c = wide(90, 110, 10, 1);
+    const auto kept = [&](float bright) {
+        // Nine samples bring 1, one brings more.
+        for (float& r : c.radiance) r = 9 + bright;
+        c.radiance_squared = 9 + bright * bright;
+        film.clusters().assign(20, 20, 1, std::span(&c, 1));
+        return reject(film).withheld(20, 20, 1) == 0;
+    };
+    EXPECT_TRUE(kept(1));
+    EXPECT_TRUE(kept(3));
+    EXPECT_FALSE(kept(50));
+}
+
+TEST(Reject, TexturesDoNotSetPixelsApart) {
+    // Sparse samples of the same light, on squares that send on 0.9 and 0.1 of it.
+    const film::Film film = make_film({40, 40, 16}, [](int x, int y, int i) {
+        film::Sample s = wall((x + y) % 2 == 0 ? 0.9f : 0.1f);
+        if (noise(x / 3, y / 3, 7) < 0.5f && x % 3 == 1 && y % 3 == 1 && i == 2) light(s, 1, 50);
+        return s;
+    });
+    int lit = 0, withheld = 0;
+    const filter::Rejection r = reject(film);
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            int near = 0;
+            for (int v = std::max(y - 5, 0); v <= std::min(y + 5, 39); ++v) {
+                for (int u = std::max(x - 5, 0); u <= std::min(x + 5, 39); ++u)
+                    near += static_cast<int>(film.clusters().view(u, v, 1).size());
+            }
+            if (film.clusters().view(x, y, 1).empty() || near < 4) continue;
+            ++lit;
+            withheld += r.withheld(x, y, 1) != 0;
+        }
+    }
+    EXPECT_GT(lit, 30);
+    EXPECT_EQ(withheld, 0);
 }
 
 TEST(Reject, EvidenceOfPixelsWithOtherNumbersOfSamples) {
