@@ -17,6 +17,7 @@ PIXEL = np.dtype(
         ("radiance", "<f4", (5, 3)),
         ("unfiltered", "<f4", 3),
         ("detail", "<f4", 3),
+        ("mirrored_detail", "<f4", 4),
         ("feature_normal", "<f4", 3),
         ("feature_depth", "<f4", 2),
         ("alpha_depth", "<f4", 2),
@@ -113,6 +114,9 @@ def read(path: Path) -> FilmFile:
     end = len(data) - 8 - total * CLUSTER.itemsize
     start = end - blocks * BLOCK * BLOCK * LAYERS
     counts = np.frombuffer(data, np.uint8, end - start, start).reshape(blocks, -1)
+    extra = 12 * contents["odd_samples"] + 48 * contents["photons"]
+    if start - at - pixels.nbytes != extra * width * height:
+        raise ValueError(f"{path}: its pixels have another layout than this reader knows")
     return FilmFile(
         contents, pixels, data[at + pixels.nbytes : start], counts, np.frombuffer(data, CLUSTER, total, end)
     )

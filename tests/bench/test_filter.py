@@ -165,7 +165,7 @@ def test_costs_are_judged_and_the_thesiss_rows_are_not():
 
 def film_bytes(width: int = 10, height: int = 9) -> bytes:
     """A film whose pixel (9, 8) alone has clusters: two of direct light, one of deep light."""
-    contents = {"region": [0, 0, width, height], "clusters": True}
+    contents = {"region": [0, 0, width, height], "clusters": True, "odd_samples": False, "photons": False}
     text = json.dumps(contents).encode()
     text += b" " * (-len(text) % 16)
     pixels = np.zeros((height, width), film_reader.PIXEL)
@@ -202,6 +202,13 @@ def test_a_film_of_one_layer_keeps_the_rest(tmp_path):
     assert film.layer(2)[0, 9, 0] == 2.0
     assert not film.layer(0).any()
     assert film.detail()[-1, 0] == pytest.approx([0.5, 0.25, 0.1])
+
+
+def test_pixels_of_another_layout_are_refused(tmp_path):
+    path = tmp_path / "a.cardioid"
+    path.write_bytes(film_bytes().replace(b'"photons": false', b'"photons": true '))
+    with pytest.raises(ValueError, match="another layout"):
+        film_reader.read(path)
 
 
 def test_other_files_are_refused(tmp_path):
