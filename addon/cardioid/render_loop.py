@@ -82,6 +82,8 @@ def run(engine: bpy.types.RenderEngine, session: Any, target: Target, *, quiet: 
     frame = session.frame()
     if frame is not None:
         target.show(frame)
+    else:
+        target.leave_black()
     if not quiet:
         status.tell(progress, now=True)
     return not stopped

@@ -37,6 +37,12 @@ class Target:
                 pixels.upload(one, self._fitted(frame.array(source)))
         self._engine.update_result(self._result)
 
+    def leave_black(self) -> None:
+        """For a render that was stopped before its first picture: Blender 3.4 crashes when it saves a result without
+        passes."""
+        if self._result is None:
+            self._open()
+
     def close(self) -> None:
         if self._result is not None:
             self._engine.end_result(self._result, cancel=False, highlight=False, do_merge_results=True)

@@ -88,15 +88,16 @@ def test_transparent_film(scene, render):
 
 
 def stop_after(seconds, monkeypatch, path):
-    """Renders, presses Esc after some seconds; the time until the render loop has ended, and the picture."""
+    """Renders, presses Esc some seconds after the first picture; the time until the loop has ended, and the picture."""
     import cardioid
     from test_running import Watched
 
-    pressed, left = [], []
-    start = time.monotonic()
+    pressed, left, shown = [], [], []
+    target = cardioid.render_result.Target
+    show = target.show
 
     def test_break():
-        if time.monotonic() - start < seconds:
+        if not shown or time.monotonic() - shown[0] < seconds:
             return False
         pressed.append(time.monotonic())
         return True
@@ -105,6 +106,7 @@ def stop_after(seconds, monkeypatch, path):
     with monkeypatch.context() as patch:
         patch.setattr(cardioid.final_render, "render",
                       lambda engine, graph: original(Watched(engine, {"test_break": test_break}), graph))
+        patch.setattr(target, "show", lambda self, frame: (shown.append(time.monotonic()), show(self, frame)))
         patch.setattr(cardioid.render_loop, "run",
                       lambda *args, **keywords: (run(*args, **keywords), left.append(time.monotonic()))[0])
         picture = pictures.render(path, False)

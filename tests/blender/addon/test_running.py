@@ -11,6 +11,7 @@ import bpy
 import conftest
 import fresh_blender
 import numpy as np
+import pictures
 import pytest
 
 
@@ -97,6 +98,15 @@ def test_esc_during_build(addon, fake, replaced):
     replaced["test_break"] = lambda: time.monotonic() - start > 0.4
     bpy.ops.render.render()
     assert time.monotonic() - start < 1.5 and fake.sessions[-1].frame() is None
+
+
+def test_a_render_stopped_before_its_first_picture_is_saved_as_black(addon, fake, monkeypatch, tmp_path):
+    """Without passes in its result Blender 3.4 crashes when it writes the file."""
+    fake.behaviour.build_seconds = 60
+    monkeypatch.setattr(fake.Session, "start", lambda self: (self._thread.start(), self.cancel()))
+    picture = pictures.render(tmp_path / "black", False)
+    assert fake.sessions[-1].frame() is None
+    assert picture["R"].shape == (24, 40) and not picture["R"].any()
 
 
 def test_pictures_come_while_it_renders(addon, fake, monkeypatch):
