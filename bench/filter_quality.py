@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
-from . import denoise, filter_methods, filter_runs, filter_scenes, plot, quality, store
+import numpy as np
+
+from . import denoise, exr, filter_methods, filter_runs, filter_scenes, metrics, plot, quality, store
 
 COLUMNS = {
     "scene": "",
@@ -12,10 +14,13 @@ COLUMNS = {
     "taken": "d",
     "cpu": ".2f",
     "relmse": ".5f",
+    "relmse_trim": ".5f",
     "of_equal_time": ".2f",
 }
 COLUMNS |= {"flip": ".4f", "energy": ".4f", "of_raw": ".4f", "fireflies": "d", "texture_kept": ".4f"}
 COLUMNS |= {"light_edges": ".5f", "reference": ".5f"}
+CLASSES = ("D1", "D2", "D3", "C1", "C2")
+CLASS_COLUMNS = {"scene": ""} | {key: ".5f" for one in CLASSES for key in (one, f"{one}_trim")}
 JUDGED = 16
 """Samples at which the issue sets its bars, and at which renders of equal time and clamped ones are made."""
 
@@ -35,6 +40,20 @@ def rows_of(film: filter_runs.Film, name: str, referee: quality.Referee, surface
     for row in rows:
         row["of_equal_time"] = row["relmse"] / equal if equal else None
     return rows
+
+
+def classes(film: filter_runs.Film, name: str, reference: list) -> dict | None:
+    """The raw picture's error by path class: what each adds to a picture that is right in all others."""
+    found = film.raw()
+    if found is None:
+        return None
+    truth = np.mean([exr.load(path) for path in reference], 0)
+    row = {"scene": name}
+    for one in CLASSES:
+        wrong = exr.load(found[1], one) - np.mean([exr.load(path, one) for path in reference], 0)
+        squares = metrics.relative_squares(truth + wrong, truth)
+        row |= {one: float(squares.mean()), f"{one}_trim": metrics.trimmed(squares)}
+    return row
 
 
 def judge(rows: list[dict]) -> list[str]:
@@ -73,7 +92,7 @@ def against_oidn(scene: str, ours: dict, found: dict[str, dict]) -> list[str]:
 
 
 def run(options, records: store.Store, engine, referee_engine) -> int:
-    rows = []
+    rows, by_class = [], []
     for name in options.scene or filter_scenes.SCENES:
         scene = filter_scenes.SCENES[name]
         referee = filter_scenes.referee(records, options.cache, referee_engine, scene, options.width, options.threads)
@@ -85,12 +104,15 @@ def run(options, records: store.Store, engine, referee_engine) -> int:
             job = scene.job(samples, 1, options.width, options.threads)
             film = filter_runs.Film(records, options.cache, engine, job)
             rows += rows_of(film, name, referee, surface)
+            if samples == JUDGED:
+                by_class.append(classes(film, name, referee.paths))
             film.forget()
             print(f"   {name}, {samples} samples: done", flush=True)
     stem = options.cache / "filter-quality"
     store.publish(rows, COLUMNS, stem)
     if plot.over_samples(rows, stem.with_suffix(".png")):
         print(f"{stem.with_suffix('.png')}")
+    store.publish([row for row in by_class if row], CLASS_COLUMNS, options.cache / "filter-classes")
     for note in [*judge(rows), denoise.problem()]:
         if note:
             print(note)

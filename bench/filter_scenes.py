@@ -84,4 +84,4 @@ def referee(records, cache: Path, engine, scene: FilterScene, width: int, thread
         return None
     parts = np.array([exr.load(path) for path in found.paths], np.float64)
     halves = parts[0::2].mean(0), parts[1::2].mean(0)
-    return quality.Referee(parts, regions.regions(halves, surface(cache, scene, width)))
+    return quality.Referee(parts, regions.regions(halves, surface(cache, scene, width)), found.paths)

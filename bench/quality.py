@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
@@ -22,6 +23,8 @@ class Referee:
 
     parts: np.ndarray
     masks: dict[str, np.ndarray]
+    paths: list[Path] = field(default_factory=list)
+    """Of the parts' pictures, which hold the path classes too."""
 
     def __post_init__(self):
         self.mean = self.parts.mean(0)
@@ -63,10 +66,11 @@ def fireflies(picture: np.ndarray, reference: np.ndarray) -> int:
 
 
 def evaluate(picture: np.ndarray, referee: Referee) -> dict[str, float | None]:
-    """All figures of a picture; errors are net of the reference's own; small regions are not judged."""
+    """All figures of a picture; errors (but relmse_trim) are net of the reference's own; small regions are not judged."""
     found = metrics.evaluate(picture, referee.mean)
     out: dict[str, float | None] = {
         "relmse": found["relmse"] - referee.own_error(),
+        "relmse_trim": found["relmse_trim"],
         "reference": referee.own_error(),
         "flip": metrics.flip(picture, referee.mean),
         "energy": found["energy"],
