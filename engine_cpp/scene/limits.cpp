@@ -18,6 +18,8 @@ constexpr std::int64_t k_filtered_bytes_per_pixel = (2 * 9 + 6) * 4;
 constexpr std::int64_t k_cluster_bytes_per_pixel = 500, k_cluster_bytes_per_sample = 3 * 32;
 // Half sums in the film and with the rules (render/adaptive.h), and flags.
 constexpr std::int64_t k_adaptive_bytes_per_pixel = 12 + 32 + 2;
+// The per-pixel schedule's statistics (photon/radius.h) and means in the film.
+constexpr std::int64_t k_radius_bytes_per_pixel = 56 + 48;
 // Embree's tree with its triangles copied into the leaves, 8 wide.
 constexpr std::int64_t k_tree_bytes_per_triangle = 120;
 constexpr std::int64_t k_bytes_per_instance = 700;
@@ -57,6 +59,8 @@ std::int64_t bytes_per_pixel(const Settings& s) {
         sum += k_filtered_bytes_per_pixel + std::min(k_cluster_bytes_per_pixel, few);
     }
     if (s.adaptive_threshold > 0) sum += k_adaptive_bytes_per_pixel;
+    const bool photons = s.integrator != IntegratorKind::path_tracing;
+    if (photons && s.radius_schedule == RadiusSchedule::per_pixel) sum += k_radius_bytes_per_pixel;
     return sum;
 }
 

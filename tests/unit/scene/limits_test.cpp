@@ -45,6 +45,11 @@ TEST(Limits, WhatTheFilterNeedsCounts) {
     scene.settings.record_clusters = true;
     scene.settings.adaptive_threshold = 0.01f;
     EXPECT_GT(per_pixel(), recorded);
+    scene.settings.adaptive_threshold = 0;
+    scene.settings.radius_schedule = RadiusSchedule::per_pixel;
+    EXPECT_EQ(per_pixel(), recorded) << "path tracing has no radii";
+    scene.settings.integrator = IntegratorKind::hybrid;
+    EXPECT_EQ(per_pixel(), recorded + 104);
 }
 
 TEST(Limits, WithoutALimitTheMachineDecides) {
