@@ -66,7 +66,7 @@ def fireflies(picture: np.ndarray, reference: np.ndarray) -> int:
 
 
 def evaluate(picture: np.ndarray, referee: Referee) -> dict[str, float | None]:
-    """All figures of a picture; errors (but relmse_trim) are net of the reference's own; small regions are not judged."""
+    """All figures of a picture; errors but relmse_trim are net of the reference's own; small regions are left out."""
     found = metrics.evaluate(picture, referee.mean)
     out: dict[str, float | None] = {
         "relmse": found["relmse"] - referee.own_error(),
