@@ -23,7 +23,7 @@ constexpr float k_largest = 1e30f;
 
 /// Small exactly where every value of the sample is, or where large ones cancel out.
 float checksum(const Sample& s) {
-    float sum = s.alpha + s.depth + total(s.normal) + total(s.unfiltered) + total(s.detail) + s.mirrored_detail +
+    float sum = s.alpha + s.depth + total(s.normal) + total(s.unfiltered) + total(s.detail) + total(s.mirrored_detail) +
                 total(s.feature_normal) + s.feature_depth + s.feature_depth_squared;
     for (const auto& c : s.radiance) sum += total(c);
     for (const LayerSample& l : s.layers) sum += total(l.radiance) + total(l.incident);
@@ -71,8 +71,9 @@ bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
         accumulate(p.feature_normal, sample.feature_normal);
         p.feature_depth += sample.feature_depth;
         p.feature_depth_squared += sample.feature_depth_squared;
-        p.mirrored_detail += sample.mirrored_detail;
-        p.mirrored_detail_squared += sample.mirrored_detail * sample.mirrored_detail;
+        accumulate(p.mirrored_detail, sample.mirrored_detail);
+        const float mirrored = luminance(sample.mirrored_detail);
+        p.mirrored_detail_squared += mirrored * mirrored;
         editor_.open(film_->clusters_, x, y);
         for (int l = 0; l < k_layers; ++l) {
             const bool kept = editor_.add(x, y, l, sample.layers[l], p.samples);
@@ -100,7 +101,8 @@ PixelFeatures Film::features(int x, int y) const {
     for (int k = 0; k < 3; ++k) f.normal[k] = p.feature_normal[k] / weight;
     f.depth = p.feature_depth / weight;
     f.depth_variance = std::max(0.0f, p.feature_depth_squared / weight - f.depth * f.depth);
-    const float mirrored = p.mirrored_detail * inv;
+    for (int k = 0; k < 3; ++k) f.mirrored_detail[k] = p.mirrored_detail[k] * inv;
+    const float mirrored = luminance(f.mirrored_detail);
     if (p.samples > 1)
         f.detail_variance =
             std::max(0.0f, p.mirrored_detail_squared * inv - mirrored * mirrored) / static_cast<float>(p.samples - 1);

@@ -18,10 +18,10 @@ inline constexpr int k_classes = 5;  ///< D1, D2, D3, C1, C2
 /// One camera path's result.
 struct Sample {
     float radiance[k_classes][3] = {};
-    float unfiltered[3] = {};      ///< the part of it that is in no layer: D1 and photons
-    LayerSample layers[k_layers];  ///< the rest
-    float detail[3] = {};          ///< albedo of the D lobes at x_d × throughput before it; 0 where there is none
-    float mirrored_detail = 0;     ///< luminance of the part of `detail` that lies behind specular lobes
+    float unfiltered[3] = {};       ///< the part of it that is in no layer: D1 and photons
+    LayerSample layers[k_layers];   ///< the rest
+    float detail[3] = {};           ///< albedo of the D lobes at x_d × throughput before it; 0 where there is none
+    float mirrored_detail[3] = {};  ///< the part of `detail` that lies behind specular lobes: noisy by their choice
     /// Normal and depth along the view axis at x_d, and depth²; each × luminance(detail).
     float feature_normal[3] = {}, feature_depth = 0, feature_depth_squared = 0;
     float alpha = 1;
@@ -39,8 +39,9 @@ struct PixelFeatures {
     float detail[3] = {};
     float normal[3] = {};  ///< mean of unit vectors: shorter where they differ; zero: nothing with a D lobe was seen
     float depth = 0;       ///< mean; 0 where nothing was seen
-    float depth_variance = 0;   ///< of the samples, not of their mean
-    float detail_variance = 0;  ///< of the mean of luminance(detail), as far as mirrors and glass make it noisy
+    float depth_variance = 0;       ///< of the samples, not of their mean
+    float mirrored_detail[3] = {};  ///< the part of `detail` that lies behind specular lobes
+    float detail_variance = 0;      ///< of luminance(mirrored_detail)
 };
 
 class FilmWriter;
@@ -85,7 +86,7 @@ private:
     struct Pixel {
         float radiance[k_classes][3] = {};
         float unfiltered[3] = {};
-        float detail[3] = {}, mirrored_detail = 0, mirrored_detail_squared = 0;
+        float detail[3] = {}, mirrored_detail[3] = {}, mirrored_detail_squared = 0;  ///< squared: of luminance
         float feature_normal[3] = {}, feature_depth = 0, feature_depth_squared = 0;
         float alpha = 0, depth = 1e10f;
         float normal[3] = {0, 0, 0};

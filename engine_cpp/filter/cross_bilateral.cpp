@@ -64,7 +64,7 @@ void filter_cross_bilateral(const KernelRequest& r) {
                 for (int c = 0; c < 3; ++c) {
                     const Float value = sums.radiance[l][c] * inverse;
                     // Rows of the result have no padding.
-                    for (int k = 0; k < W && k < left; ++k) r.result[l][c][y * t.area.width + x + k] = value[k];
+                    for (int k = 0; k < W && k < left; ++k) r.result[l][c][y * r.stride + x + k] = value[k];
                 }
             }
         }

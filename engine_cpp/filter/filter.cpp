@@ -2,11 +2,12 @@
 #include "filter/filter.h"
 
 #include "filter/cross_bilateral.h"
+#include "filter/spread.h"
 #include "filter/thesis.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace cardioid::filter {
 
@@ -20,21 +21,10 @@ constexpr int k_tile = 64;
 constexpr int k_thesis_tile = 16;
 /// Standard deviation of the Gaussian over the distance, as a share of the kernel's width.
 constexpr float k_spread = 1.0f / 3.0f;
-
-/// Raw light of clusters that are withheld, without exposure.
-void withheld_light(const film::Film& film, const Rejection& rejection, int x, int y, float (&rgb)[3]) {
-    std::fill_n(rgb, 3, 0.0f);
-    for (int l = 0; l < film::k_layers; ++l) {
-        const unsigned bits = rejection.withheld(x, y, l);
-        if (bits == 0) continue;
-        const auto clusters = film.clusters().view(x, y, l);
-        for (std::size_t i = 0; i < clusters.size(); ++i) {
-            for (int k = 0; k < 3 && (bits >> i & 1) != 0; ++k) rgb[k] += clusters[i].radiance[k];
-        }
-    }
-    const auto taken = static_cast<float>(film.samples(x, y));
-    for (float& c : rgb) c = taken > 0 ? c / taken : 0;
-}
+/// Pixels from tap to tap in the default's second pass: light that is still noisy is averaged over a wider surrounding.
+constexpr int k_second_step = 3;
+/// Standard deviation of the surroundings that share withheld light, in kernel widths.
+constexpr float k_withheld_width = 2.0f;
 
 /// Splits raw light into what is shown and what is withheld, so that their sum is the raw light to the last bit.
 void split(float raw, float& shown, float& withheld) {
@@ -61,35 +51,66 @@ public:
     bool operator()(const ForEach& for_each) {
         rejection_ = reject(film_, settings_, for_each, &out_.rejection);
         if (settings_.firefly_density > 0 && film_.has_clusters() && rejection_.bits.empty()) return false;
-        const int size = settings_.filter_method == FilterMethod::thesis ? k_thesis_tile : k_tile;
-        std::vector<film::Region> tiles;
-        for (int y = 0; y < out_.height; y += size) {
-            for (int x = 0; x < out_.width; x += size)
-                tiles.push_back({x, y, std::min(size, out_.width - x), std::min(size, out_.height - y)});
-        }
-        return for_each(static_cast<int>(tiles.size()),
-                        [&](int i) { filter_tile(tiles[static_cast<std::size_t>(i)]); });
+        if (settings_.filter_method == FilterMethod::none || !film_.has_clusters())
+            return each_tile(for_each, k_tile, [&](const film::Region& area) { only_reject(area); });
+        if (settings_.filter_method == FilterMethod::thesis)
+            return pass(for_each, k_thesis_tile, 1) && finish(for_each);
+        if (settings_.filter_method == FilterMethod::cross_bilateral)
+            return pass(for_each, k_tile, 1) && finish(for_each);
+        if (!pass(for_each, k_tile, 1)) return false;
+        const float width = k_withheld_width * static_cast<float>(settings_.filter_size);
+        if (!spread_withheld(film_, rejection_, picture_, width, for_each, spread_)) return false;
+        return pass(for_each, k_tile, k_second_step) && finish(for_each);
     }
 
 private:
-    void filter_tile(const film::Region& area) {
-        if (settings_.filter_method == FilterMethod::none || !film_.has_clusters()) return only_reject(area);
+    template <class Body>
+    bool each_tile(const ForEach& for_each, int size, const Body& body) const {
+        const int columns = (out_.width + size - 1) / size, rows = (out_.height + size - 1) / size;
+        return for_each(columns * rows, [&](int i) {
+            const int x = i % columns * size, y = i / columns * size;
+            body({x, y, std::min(size, out_.width - x), std::min(size, out_.height - y)});
+        });
+    }
+
+    /// From what the pass before has made of the film, if any, to picture_.
+    bool pass(const ForEach& for_each, int size, int step) {
+        const Picture before = std::exchange(picture_, Picture(out_.width, out_.height));
+        const Picture* const filtered = before.width > 0 ? &before : nullptr;
+        return each_tile(for_each, size, [&](const film::Region& area) { filter_tile(area, step, filtered); });
+    }
+
+    KernelRequest request(const film::Region& area, int step) {
         KernelRequest r;
         r.radius = settings_.filter_size / 2;
+        r.step = step;
         r.layers[0] = settings_.filter_direct;
         r.layers[1] = settings_.filter_indirect;
         r.layers[2] = settings_.filter_deep;
         const float spread = k_spread * static_cast<float>(settings_.filter_size);
         r.inverse_two_spread_squared = 0.5f / (spread * spread);
         r.inverse_texture_width_squared = 1 / (settings_.texture_width * settings_.texture_width);
-        const Tile tile(film_, rejection_, area, r.radius + k_patch + 1);
+        const std::size_t corner = at(area.x, area.y);
+        for (int l = 0; l < film::k_layers; ++l) {
+            for (int c = 0; c < 3; ++c) {
+                r.result[l][c] = &picture_.layer[l][c][corner];
+                r.variance[l][c] = &picture_.variance[l][c][corner];
+            }
+        }
+        for (int c = 0; c < 3; ++c) r.detail[c] = &picture_.detail[c][corner];
+        r.stride = out_.width;
+        return r;
+    }
+
+    void filter_tile(const film::Region& area, int step, const Picture* filtered) {
+        KernelRequest r = request(area, step);
+        const Tile tile(film_, rejection_, area, r.radius * step + k_patch + 1, filtered);
         r.tile = &tile;
-        const auto pixels = static_cast<std::size_t>(area.width) * static_cast<std::size_t>(area.height);
-        std::vector<float> light(pixels * film::k_layers * 3), scratch;
-        for (std::size_t i = 0; i < film::k_layers * 3; ++i) r.result[i / 3][i % 3] = &light[i * pixels];
+        keep_unfiltered_layers(r);
+        std::vector<float> scratch;
         if (settings_.filter_method == FilterMethod::thesis) {
             const auto width = static_cast<std::size_t>(2 * r.radius + 1);
-            scratch.resize(width * width * pixels);
+            scratch.resize(width * width * static_cast<std::size_t>(area.width * area.height));
             geometry_(r, scratch.data());
             filter_thesis(r, film_, rejection_, settings_.luminance_sensitivity, scratch.data());
         } else {
@@ -97,7 +118,16 @@ private:
             r.scratch = scratch.data();
             kernel_(r);
         }
-        write(r);
+    }
+
+    static void keep_unfiltered_layers(const KernelRequest& r) {
+        const Tile& t = *r.tile;
+        for (int l = 0; l < film::k_layers; ++l) {
+            for (int y = 0; y < t.area.height && !r.layers[l]; ++y) {
+                for (int c = 0; c < 3; ++c)
+                    std::copy_n(t.radiance[l][c] + t.at(0, y), t.area.width, r.result[l][c] + y * r.stride);
+            }
+        }
     }
 
     void only_reject(const film::Region& area) {
@@ -106,36 +136,39 @@ private:
                 float raw[3], withheld[3];
                 film_.raw(x, y, raw);
                 withheld_light(film_, rejection_, x, y, withheld);
-                for (int k = 0; k < 3; ++k) {
+                for (std::size_t k = 0; k < 3; ++k) {
                     withheld[k] *= film_.exposure();
-                    split(raw[k], out_.shown[index(x, y) + k], withheld[k]);
-                    out_.withheld[index(x, y) + k] = withheld[k];
+                    split(raw[k], out_.shown[3 * at(x, y) + k], withheld[k]);
+                    out_.withheld[3 * at(x, y) + k] = withheld[k];
                 }
             }
         }
     }
 
-    void write(const KernelRequest& r) {
-        const film::Region& area = r.tile->area;
-        for (int y = 0; y < area.height; ++y) {
-            for (int x = 0; x < area.width; ++x) {
-                const int px = area.x + x, py = area.y + y;
-                float rgb[3], withheld[3];
-                film_.unfiltered(px, py, rgb);
-                withheld_light(film_, rejection_, px, py, withheld);
-                for (int k = 0; k < 3; ++k) {
-                    for (int l = 0; l < film::k_layers; ++l)
-                        rgb[k] +=
-                            r.layers[l] ? r.result[l][k][y * area.width + x] : r.tile->radiance[l][k][r.tile->at(x, y)];
-                    out_.shown[index(px, py) + k] = rgb[k] * film_.exposure();
-                    out_.withheld[index(px, py) + k] = withheld[k] * film_.exposure();
-                }
+    /// Adds the layers up, with what is in none.
+    bool finish(const ForEach& for_each) {
+        return each_tile(for_each, k_tile, [&](const film::Region& area) {
+            for (int y = area.y; y < area.y + area.height; ++y) {
+                for (int x = area.x; x < area.x + area.width; ++x) finish_pixel(x, y);
             }
+        });
+    }
+
+    void finish_pixel(int x, int y) {
+        const std::size_t i = at(x, y);
+        float rgb[3], withheld[3];
+        film_.unfiltered(x, y, rgb);
+        withheld_light(film_, rejection_, x, y, withheld);
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (const auto& layer : picture_.layer) rgb[k] += layer[k][i];
+            if (!spread_[k].empty()) rgb[k] += spread_[k][i];
+            out_.shown[3 * i + k] = rgb[k] * film_.exposure();
+            out_.withheld[3 * i + k] = withheld[k] * film_.exposure();
         }
     }
 
-    std::size_t index(int x, int y) const {
-        return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out_.width) + static_cast<std::size_t>(x));
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(out_.width) + static_cast<std::size_t>(x);
     }
 
     const film::Film& film_;
@@ -144,6 +177,8 @@ private:
     GeometryWeights geometry_;
     Filtered& out_;
     Rejection rejection_;
+    Picture picture_;
+    std::vector<float> spread_[3];
 };
 
 }  // namespace

@@ -14,12 +14,17 @@ inline constexpr int k_patch = 2;
 
 struct KernelRequest {
     const Tile* tile = nullptr;
-    int radius = 5;                           ///< the kernel is 2 · radius + 1 pixels wide
+    int radius = 5;  ///< the kernel has 2 · radius + 1 taps to a side …
+    int step = 1;    ///< … and this many pixels from tap to tap (1 but in the default's second pass)
     bool layers[film::k_layers] = {};         ///< which are filtered; the others stay as they are
     float inverse_two_spread_squared = 0;     ///< 1/(2 s²) of the Gaussian over the distance in pixels
     float inverse_texture_width_squared = 0;  ///< cross-bilateral only
     float* scratch = nullptr;                 ///< scratch_floats() of them
-    float* result[film::k_layers][3] = {};    ///< filtered radiance, area.width × area.height
+    /// Pixel (0, 0) of the tile in planes with rows of `stride`: filtered radiance; and what only the default gives.
+    float* result[film::k_layers][3] = {};
+    float* variance[film::k_layers][3] = {};
+    float* detail[3] = {};
+    int stride = 0;
 };
 
 using FilterTile = void (*)(const KernelRequest&);

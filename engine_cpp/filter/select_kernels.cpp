@@ -21,7 +21,7 @@ namespace filter {
 std::size_t scratch_floats(const Tile& tile) {
     const auto stride = static_cast<std::size_t>(tile.area.width + 2 * k_patch + 16);
     const auto rows = static_cast<std::size_t>(tile.area.height + 2 * k_patch);
-    constexpr std::size_t planes = 3 + 6 * k_signals;
+    constexpr std::size_t planes = 3 + 9 * k_signals;
     return planes * stride * rows + 64;
 }
 

@@ -113,7 +113,7 @@ private:
         const Tile& t = *r_.tile;
         const int p = t.at(x, y);
         for (int k = 0; k < 3; ++k) {
-            float* const out = &r_.result[layer][k][y * t.area.width + x];
+            float* const out = &r_.result[layer][k][y * r_.stride + x];
             *out = t.radiance[layer][k][p];
             if (t.detail[k][p] <= k_darkest_detail) continue;
             double sum = 0;

@@ -17,19 +17,26 @@ float variance_of_mean(float sum, float squares, float n) {
     return std::max(0.0f, squares / n - mean * mean) / (n - 1.0f);
 }
 
+/// ΣR² of a cluster's samples in one channel: its samples are taken to be of one colour, the cluster's.
+float channel_squares(const film::Cluster& c, int channel) {
+    const float y = film::luminance(c.radiance);
+    if (y <= 0) return 0;
+    const float share = c.radiance[channel] / y;
+    return share * share * c.radiance_squared;
+}
+
 }  // namespace
 
-Tile::Tile(const film::Film& film, const Rejection& rejection, const film::Region& region, int around)
+Tile::Tile(const film::Film& film, const Rejection& rejection, const film::Region& region, int around,
+           const Picture* filtered)
     : area(region), reach(around), stride(region.width + 2 * around + k_padding) {
     std::vector<float**> planes{&taken, &normal_variance, &depth, &depth_variance, &gradient[0], &gradient[1]};
     for (int c = 0; c < 3; ++c) {
         planes.push_back(&detail[c]);
         planes.push_back(&normal[c]);
         for (auto& layer : radiance) planes.push_back(&layer[c]);
-        for (Signal& s : signal) planes.push_back(&s.sum[c]);
-        for (Signal& s : signal) planes.push_back(&s.weight[c]);
+        for (Signal& s : signal) planes.insert(planes.end(), {&s.mean[c], &s.variance[c], &s.weight[c]});
     }
-    for (Signal& s : signal) planes.insert(planes.end(), {&s.mean, &s.variance});
     const std::size_t size = static_cast<std::size_t>(stride) * static_cast<std::size_t>(area.height + 2 * reach + 1);
     memory_.assign(planes.size() * size, 0.0f);
     for (std::size_t i = 0; i < planes.size(); ++i) *planes[i] = memory_.data() + i * size;
@@ -39,9 +46,14 @@ Tile::Tile(const film::Film& film, const Rejection& rejection, const film::Regio
         for (int x = -reach; x < area.width + reach; ++x) {
             const int px = area.x + x, py = area.y + y;
             if (px < 0 || py < 0 || px >= frame.width || py >= frame.height) continue;
-            if (film.samples(px, py) > 0) load_pixel(film, rejection, px, py, at(x, y));
+            if (film.samples(px, py) == 0) continue;
+            load_pixel(film, rejection, px, py, at(x, y));
+            if (!filtered) continue;
+            load_filtered(*filtered, static_cast<std::size_t>(py) * frame.width + static_cast<std::size_t>(px),
+                          at(x, y));
         }
     }
+    has_noisy_detail &= filtered == nullptr;
     find_gradients();
 }
 
@@ -60,34 +72,51 @@ void Tile::load_pixel(const film::Film& film, const Rejection& rejection, int x,
     for (int l = 0; l < film::k_layers; ++l)
         load_layer(film.clusters().view(x, y, l), rejection.withheld(x, y, l), l, i);
     Signal& d = signal[k_detail_signal];
-    d.mean[i] = film::luminance(f.detail);
-    d.variance[i] = f.detail_variance;
-    has_blurred_detail |= f.detail_variance > 0;
+    has_noisy_detail |= f.detail_variance > 0;
+    const float brightness = film::luminance(f.mirrored_detail);
     for (int c = 0; c < 3; ++c) {
-        d.sum[c][i] = f.detail[c] * taken[i];
+        const float share = brightness > 0 ? f.mirrored_detail[c] / brightness : 0.0f;
+        d.mean[c][i] = f.mirrored_detail[c];
+        d.variance[c][i] = f.detail_variance * share * share;
         d.weight[c][i] = taken[i];
     }
 }
 
+void Tile::load_filtered(const Picture& filtered, std::size_t from, int i) {
+    for (int c = 0; c < 3; ++c) detail[c][i] = filtered.detail[c][from];
+    for (int l = 0; l < film::k_layers; ++l) {
+        const auto &light = filtered.layer[l], &variance = filtered.variance[l];
+        set_layer(l, i, {light[0][from], light[1][from], light[2][from]},
+                  {variance[0][from], variance[1][from], variance[2][from]});
+    }
+}
+
 void Tile::load_layer(std::span<const film::Cluster> clusters, unsigned withheld, int layer, int i) {
-    float sum[3] = {}, squares = 0;
+    float sum[3] = {}, squares[3] = {}, mean[3], variance[3];
     for (std::size_t k = 0; k < clusters.size(); ++k) {
         if ((withheld >> k & 1) != 0) continue;
-        for (int c = 0; c < 3; ++c) sum[c] += clusters[k].radiance[c];
-        squares += clusters[k].radiance_squared;
+        for (int c = 0; c < 3; ++c) {
+            sum[c] += clusters[k].radiance[c];
+            squares[c] += channel_squares(clusters[k], c);
+        }
     }
-    Signal& s = signal[layer];
-    const float d[3] = {detail[0][i], detail[1][i], detail[2][i]};
     for (int c = 0; c < 3; ++c) {
-        radiance[layer][c][i] = sum[c] / taken[i];
-        if (d[c] <= k_darkest_detail) continue;
-        s.sum[c][i] = sum[c] / d[c];
-        s.weight[c][i] = taken[i];
+        mean[c] = sum[c] / taken[i];
+        variance[c] = variance_of_mean(sum[c], squares[c], taken[i]);
     }
-    const float brightness = film::luminance(d);
-    if (brightness <= k_darkest_detail) return;
-    s.mean[i] = film::luminance(sum) / (taken[i] * brightness);
-    s.variance[i] = variance_of_mean(film::luminance(sum), squares, taken[i]) / (brightness * brightness);
+    set_layer(layer, i, mean, variance);
+}
+
+void Tile::set_layer(int layer, int i, const float (&mean)[3], const float (&variance)[3]) {
+    Signal& s = signal[layer];
+    for (int c = 0; c < 3; ++c) {
+        radiance[layer][c][i] = mean[c];
+        const float d = detail[c][i];
+        const bool bright = d > k_darkest_detail;
+        s.mean[c][i] = bright ? mean[c] / d : 0.0f;
+        s.variance[c][i] = bright ? variance[c] / (d * d) : 0.0f;
+        s.weight[c][i] = bright ? taken[i] : 0.0f;
+    }
 }
 
 void Tile::find_gradients() {

@@ -101,9 +101,9 @@ struct alignas(64) BatchResult {
     PathFloats layer_radiance[k_layers][3], layer_incident[k_layers][3];
     PathFloats detail[3];  ///< albedo of the D lobes at x_d × throughput before it
     PathFloats feature_normal[3], feature_depth, feature_depth_squared;  ///< at x_d, × luminance(detail)
-    PathFloats mirrored_detail;  ///< luminance of the part of `detail` that lies behind specular lobes
-    PathFloats caustic_hits;     ///< luminance of C1 as if camera paths alone brought it; with photons only
-    PathInts x, y, sample;       ///< pixel in the frame and number of the sample
+    PathFloats mirrored_detail[3];  ///< the part of `detail` that lies behind specular lobes
+    PathFloats caustic_hits;        ///< luminance of C1 as if camera paths alone brought it; with photons only
+    PathInts x, y, sample;          ///< pixel in the frame and number of the sample
 };
 
 /// Counted facts; the sums over threads go to the statistics.

@@ -15,12 +15,13 @@ void Tracer::add_features(const path::VertexChunk& chunk, int i, const DetailSum
     const Float depth = -(to_camera[8] * p.x + to_camera[9] * p.y + to_camera[10] * p.z + to_camera[11]);
     const Vec3 n = normalize(detail.normal) * weight;
     const Float weighted_depth = depth * weight;
-    const Float mirrored = select(byte_of(load(chunk.depth + i), 0) > Int(0), weight, Float(0.0f));
-    const Float values[] = {d.r, d.g, d.b, n.x, n.y, n.z, weighted_depth, weighted_depth * depth, mirrored};
+    const Spectrum mirrored = select(byte_of(load(chunk.depth + i), 0) > Int(0), d, Spectrum(0.0f));
+    const Float values[] = {d.r,        d.g,        d.b,       n.x, n.y, n.z, weighted_depth, weighted_depth * depth,
+                            mirrored.r, mirrored.g, mirrored.b};
     float* const rows[] = {
-        result.detail[0],         result.detail[1],         result.detail[2],     result.feature_normal[0],
-        result.feature_normal[1], result.feature_normal[2], result.feature_depth, result.feature_depth_squared,
-        result.mirrored_detail};
+        result.detail[0],          result.detail[1],          result.detail[2],         result.feature_normal[0],
+        result.feature_normal[1],  result.feature_normal[2],  result.feature_depth,     result.feature_depth_squared,
+        result.mirrored_detail[0], result.mirrored_detail[1], result.mirrored_detail[2]};
     static_assert(sizeof rows / sizeof *rows == sizeof values / sizeof *values);
     for (std::uint32_t b = bits(here); b != 0; b &= b - 1) {
         const int k = std::countr_zero(b), path = chunk.path[i + k];

@@ -33,10 +33,10 @@ void clear_layers(path::BatchResult& result, int i) {
     const auto clear = [i](path::PathFloats(&rows)[3]) { store3(rows, i, {0.0f, 0.0f, 0.0f}); };
     clear(result.unfiltered);
     clear(result.detail);
+    clear(result.mirrored_detail);
     clear(result.feature_normal);
     store(result.feature_depth + i, Float(0.0f));
     store(result.feature_depth_squared + i, Float(0.0f));
-    store(result.mirrored_detail + i, Float(0.0f));
     for (int l = 0; l < path::k_layers; ++l) {
         clear(result.layer_radiance[l]);
         clear(result.layer_incident[l]);

@@ -15,6 +15,7 @@ film::Sample sample_of(const path::BatchResult& r, int i) {
     for (int k = 0; k < 3; ++k) {
         s.unfiltered[k] = r.unfiltered[k][i];
         s.detail[k] = r.detail[k][i];
+        s.mirrored_detail[k] = r.mirrored_detail[k][i];
         s.feature_normal[k] = r.feature_normal[k][i];
         s.normal[k] = r.normal[k][i];
         for (int l = 0; l < film::k_layers; ++l) {
@@ -65,7 +66,7 @@ void Session::Impl::filter_picture() {
 
 void Session::Impl::run_filter() {
     const std::int64_t samples = pixel_samples;
-    FilterRun run(abandoned);
+    FilterRun run([this] { return abandoned || waited_too_long(); });
     const filter::Filtered result = run.compute(*film, desc->settings.filter, width);
     if (!result.complete) return;
     {
@@ -78,6 +79,11 @@ void Session::Impl::run_filter() {
     const std::lock_guard lock(state_mutex);
     filter_report = run.report();
     filter_schedule.ran(static_cast<int>(samples / (std::int64_t{region.width} * region.height)), run.report().seconds);
+}
+
+bool Session::Impl::waited_too_long() const {
+    const double since = cancelled_at;
+    return since > 0 && seconds_since(started) - since > FilterSchedule::k_affordable;
 }
 
 void Session::Impl::filter_at_end() {
