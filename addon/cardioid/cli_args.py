@@ -12,6 +12,8 @@ from typing import Any
 from . import core
 from .settings_table import k_by_name, k_integrators
 
+k_most = 0x7FFFFFFF  # of Blender's whole numbers
+
 
 @dataclass(frozen=True)
 class Arguments:
@@ -33,14 +35,16 @@ class _Parser(argparse.ArgumentParser):
         raise ValueError(message)
 
 
-def _integer(least: int):
+def _integer(least: int, most: int = k_most):
+    span = f"of at least {least}" if most == k_most else f"from {least} to {most}"
+
     def parse(text: str) -> int:
         try:
             number = int(text)
         except ValueError:
             number = least - 1
-        if not least <= number <= 0x7FFFFFFF:
-            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number of at least {least}")
+        if not least <= number <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number {span}")
         return number
 
     return parse
@@ -90,7 +94,7 @@ def _of_setting(name: str, metavar: str, text: str, option: str = "") -> tuple:
     """The argument of a setting of the table, with the setting's own limits. option: where its name says it better."""
     setting = k_by_name[name]
     if setting.kind == "int":
-        parser = _integer(setting.options["min"])
+        parser = _integer(setting.options["min"], setting.options["max"])
     elif setting.kind == "float":
         parser = _number(setting.options["min"], setting.options["max"])
     else:

@@ -111,7 +111,8 @@ def test_command_line(addon):
     (("--cardioid-filter", "maybe"), "--cardioid-filter: 'maybe' is not one of on, off"),
     (("--cardioid-filter-method", "oidn"), "'oidn' is not one of clusters, thesis, cross_bilateral, none"),
     (("--cardioid-luminance-sensitivity", "1"), "'1' is not a number from 0 to 0.99"),
-    (("--cardioid-filter-size", "0"), "--cardioid-filter-size: '0' is not a whole number of at least 1"),
+    (("--cardioid-filter-size", "0"), "--cardioid-filter-size: '0' is not a whole number from 1 to 63"),
+    (("--cardioid-filter-size", "64"), "'64' is not a whole number from 1 to 63"),
     (("--cardioid-firefly-density", "inf"), "'inf' is not a number from 0 to 10"),
 ])
 def test_wrong_values_are_told(addon, words, expected):
