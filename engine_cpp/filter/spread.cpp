@@ -64,30 +64,55 @@ void withheld_light(const film::Film& film, const Rejection& rejection, int x, i
     for (float& c : rgb) c = taken > 0 ? c / taken : 0;
 }
 
+namespace {
+
+/// The most by which one pixel's withheld light may brighten its surroundings, of their own light; what is above is left out.
+constexpr float k_largest_share = 0.25f;
+
+/// What of a pixel's withheld light is spread. A value that would outshine its surroundings even then is no estimate of them.
+void light_to_spread(const film::Film& film, const Rejection& rejection, const Picture& picture, int x, int y,
+                     float area, float (&rgb)[3]) {
+    withheld_light(film, rejection, x, y, rgb);
+    const float withheld = film::luminance(rgb);
+    if (withheld <= 0) return;
+    const std::size_t i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x);
+    float around[3] = {};
+    for (const auto& layer : picture.layer) {
+        for (std::size_t k = 0; k < 3; ++k) around[k] += layer[k][i];
+    }
+    const float most = k_largest_share * area * std::max(film::luminance(around), 0.0f);
+    for (float& c : rgb) c *= std::min(1.0f, most / withheld);
+}
+
+}  // namespace
+
 bool spread_withheld(const film::Film& film, const Rejection& rejection, const Picture& picture, float width,
                      const ForEach& for_each, std::vector<float> (&rgb)[3]) {
     const int w = picture.width, h = picture.height, half = half_width(width);
     const auto size = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
     for (auto& plane : rgb) plane.assign(size, 0.0f);
     if (std::all_of(rejection.bits.begin(), rejection.bits.end(), [](std::uint8_t b) { return b == 0; })) return true;
-    for (int k = 0; k < 3; ++k) {
-        std::vector<float> light(size, 0.0f), weight(size, 0.0f);
-        const auto& detail = picture.detail[k];
-        for (int y = 0; y < h; ++y) {
-            for (int x = 0; x < w; ++x) {
-                const std::size_t i =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-                if (detail[i] <= k_darkest_detail) continue;
-                float withheld[3];
-                withheld_light(film, rejection, x, y, withheld);
-                // Weighed by detail: the energy that a pixel lost is what its surroundings gain.
-                light[i] = withheld[k];
-                weight[i] = detail[i];
+    const float area = 6.2831853f * width * width;
+    for (int y = 0; y < h; ++y) {
+        for (int x = 0; x < w; ++x) {
+            const std::size_t i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+            float light[3];
+            light_to_spread(film, rejection, picture, x, y, area, light);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (picture.detail[k][i] > k_darkest_detail) rgb[k][i] = light[k];
             }
         }
-        if (!blur(light, w, h, half, for_each) || !blur(weight, w, h, half, for_each)) return false;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        // Weighed by detail: the energy that a pixel lost is what its surroundings gain.
+        std::vector<float> weight(picture.detail[k]);
+        for (float& d : weight) d = d > k_darkest_detail ? d : 0.0f;
+        if (!blur(rgb[k], w, h, half, for_each) || !blur(weight, w, h, half, for_each)) return false;
         for (std::size_t i = 0; i < size; ++i) {
-            if (weight[i] > 0 && detail[i] > k_darkest_detail) rgb[k][i] = light[i] / weight[i] * detail[i];
+            const float d = picture.detail[k][i];
+            rgb[k][i] = weight[i] > 0 && d > k_darkest_detail ? rgb[k][i] / weight[i] * d : 0.0f;
         }
     }
     return true;

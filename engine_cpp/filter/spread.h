@@ -13,7 +13,8 @@ namespace cardioid::filter {
 void withheld_light(const film::Film& film, const Rejection& rejection, int x, int y, float (&rgb)[3]);
 
 /// Planes of the film's size to be added to the picture: withheld light over detail, averaged by a Gaussian of standard deviation
-/// `width` pixels (three boxes), times detail. False: stopped.
+/// `width` pixels (three boxes), times detail. Of light that would brighten the `picture` there by more than a quarter, the rest is
+/// left out. False: stopped.
 bool spread_withheld(const film::Film& film, const Rejection& rejection, const Picture& picture, float width,
                      const ForEach& for_each, std::vector<float> (&rgb)[3]);
 
