@@ -66,6 +66,11 @@ def opened() -> list[Kept]:
     return list(_opened.values())
 
 
+def give_way(scene: str, layer: str, view: str) -> None:
+    """Frees one film before the next one needs memory."""
+    _kept.pop((scene, layer, view), None)
+
+
 def drop(scene: str) -> None:
     """Frees the films of a scene."""
     for key in [key for key in _kept if key[0] == scene]:

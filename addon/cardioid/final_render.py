@@ -74,6 +74,8 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
     if view:
         engine.active_view_set(view)
     wanted = list(passes.enabled(layer))
+    if not engine.is_preview:
+        films.give_way(scene.name, layer.name, view)
     start = time.monotonic()
     exported = _export(engine, module, depsgraph, settings, wanted)
     if exported is None:

@@ -97,6 +97,8 @@ def threads(scene: bpy.types.Scene, wanted: int | None = None) -> int:
 
 
 def _engine_value(setting: Setting, value: Any) -> Any:
+    if setting.name == "filter_size":
+        return value | 1  # there is a pixel in its middle
     return value.lower() if setting.kind == "enum" else value
 
 

@@ -92,6 +92,8 @@ class FilterJob:
         unknown = set(settings) - set(k_defaults)
         if unknown:
             raise Error([f"filter: unknown key {key}" for key in unknown])
+        if settings["filter_size"] % 2 == 0:
+            raise Error(["filter_size is even"])
         self.film, self.settings, self.threads = film, settings, threads
         self.cancelled = False
         self._seconds = behaviour.filter_seconds if settings["use_filter"] else 0.0

@@ -263,8 +263,10 @@ def test_films_of_an_animation_lie_beside_the_frames(films, fake, tmp_path):
     scene = bpy.context.scene
     scene.frame_start, scene.frame_end, scene.cardioid.save_film = 1, 3, True
     scene.render.filepath = str(tmp_path / "frame_###")
-    before = alive(fake)
+    before, during = alive(fake), []
+    fake.behaviour.on_sample = lambda session: during.append(fake.Film.alive)
     bpy.ops.render.render(animation=True)
+    assert during and max(during) == before  # each frame's film gives way to the next one's
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         f"frame_00{number}.{kind}" for number in (1, 2, 3) for kind in ("cardioid", "png")]
     assert alive(fake) == before + 1

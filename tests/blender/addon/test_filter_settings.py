@@ -47,6 +47,14 @@ def test_limits(settings, name, below, above):
         assert getattr(settings, name) == pytest.approx(kept)
 
 
+def test_an_even_size_is_the_next_odd_one(settings):
+    from cardioid.resolve import filter_settings
+
+    for given, told in ((1, 1), (2, 3), (12, 13), (63, 63)):
+        settings.filter_size = given
+        assert resolved()["filter_size"] == filter_settings(bpy.context.scene)["filter_size"] == told
+
+
 def test_a_film_is_recorded_where_it_has_a_use(settings):
     """This Blender has no window: a film for tuning alone would be memory for nothing."""
     assert bpy.app.background
