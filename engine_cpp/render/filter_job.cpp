@@ -21,7 +21,7 @@ struct FilterJob::Impl {
     scene::FilterSettings settings;
     int threads, lanes;
     std::atomic<bool> cancelled{false};
-    FilterRun run{cancelled};
+    FilterRun run{[this] { return cancelled.load(); }};
     std::thread controller;
 
     mutable std::mutex mutex;

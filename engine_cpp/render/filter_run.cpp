@@ -52,7 +52,7 @@ bool FilterRun::for_each(int n, const std::function<void(int)>& body) {
     tbb::parallel_for(
         0, n,
         [&](int i) {
-            if (stop_.load(std::memory_order_relaxed)) return;
+            if (stop_()) return;
             const FlushDenormals guard;
             const bool helper = std::this_thread::get_id() != caller;
             const std::int64_t cpu = helper ? thread_cpu_ns() : 0;

@@ -10,6 +10,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace cardioid::render {
 
@@ -23,8 +25,8 @@ struct FilterReport {
 
 class FilterRun {
 public:
-    /// `stop`: set by anyone to end the run early.
-    explicit FilterRun(const std::atomic<bool>& stop) : stop_(stop) {}
+    /// `stop`: asked by all threads, often: whether to end the run early.
+    explicit FilterRun(std::function<bool()> stop) : stop_(std::move(stop)) {}
 
     /// The slow part. `film` has clusters; nothing may write to it meanwhile. `lanes` as filter::run.
     filter::Filtered compute(const film::Film& film, const scene::FilterSettings& settings, int lanes = 0);
@@ -38,7 +40,7 @@ public:
 private:
     bool for_each(int n, const std::function<void(int)>& body);
 
-    const std::atomic<bool>& stop_;
+    std::function<bool()> stop_;
     std::atomic<double> fraction_{0};
     std::atomic<std::int64_t> helpers_ns_{0};  ///< CPU time of threads other than the caller's
     int stage_ = 0;

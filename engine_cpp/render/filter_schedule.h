@@ -7,7 +7,7 @@ namespace cardioid::render {
 class FilterSchedule {
 public:
     static constexpr double k_share = 0.1;  ///< of the render's time
-    /// Seconds that a run may be expected to take after a cancel; above, the picture keeps the run before.
+    /// Seconds that the host waits for a run after a cancel; beyond, the picture keeps the run before.
     static constexpr double k_affordable = 5;
 
     /// At once for the first time; then when samples have doubled, if another run as long as the last leaves the share kept.

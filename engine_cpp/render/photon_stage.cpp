@@ -22,6 +22,9 @@ constexpr double k_most_photons = 2e6;
 /// Photons for each camera path.
 constexpr double k_photons_per_path = 0.5;
 
+/// The least share of photons that the last few pixels of adaptive sampling keep.
+constexpr double k_least_share = 0.125;
+
 /// For lamps that camera paths never find: photons are everything. Finite, so that weights stay numbers.
 constexpr float k_never_hit = 1e20f;
 
@@ -64,6 +67,7 @@ struct PhotonStage::Impl {
     photon::PhotonMap map;
     path::PhotonPass pass;
     std::int64_t per_sample = 0;
+    double share = 1;      // of them that are traced
     int most_samples = 8;  // of a pass
     std::uint32_t pass_seed = 0;
     std::unique_ptr<std::atomic<std::uint32_t>[]> gathered;
@@ -179,6 +183,11 @@ int PhotonStage::Impl::count_samples() const {
     return most;
 }
 
+void PhotonStage::thin(double share) {
+    // Where camera paths of a pass cost a share f of what they did, the error falls fastest with sqrt(f) of the photons (balance.h).
+    impl_->share = std::max(k_least_share, std::sqrt(share));
+}
+
 bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& worker, const std::atomic<bool>& stop) {
     Impl& s = *impl_;
     if (!s.active) {
@@ -187,7 +196,9 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
         return true;
     }
     const scene::Settings& settings = s.view.settings;
-    const std::int64_t emitted = s.per_sample * pass.size;
+    const auto per_path =
+        std::max<std::int64_t>(1, static_cast<std::int64_t>(static_cast<double>(s.per_sample) * s.share));
+    const std::int64_t emitted = per_path * pass.size;
     const auto started = Clock::now();
     s.pass_seed = settings.seed * 0x9e3779b9u + static_cast<std::uint32_t>(pass.number) * 0x85ebca6bu + 0x51ed270bu;
     // Two maps never stand beside each other.
@@ -201,7 +212,7 @@ bool PhotonStage::trace(const Pass& pass, const std::function<PhotonWorker()>& w
     s.pass = {};
     s.pass.map = s.map.view();
     s.pass.emitted = static_cast<float>(emitted);
-    s.pass.per_path = static_cast<float>(s.per_sample);
+    s.pass.per_path = static_cast<float>(per_path);
     s.pass.emitter_density = s.emitter_density.data();
     s.pass.radius = settings.photon_radius;
     const auto alpha = static_cast<double>(settings.radius_shrink);

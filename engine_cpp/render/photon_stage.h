@@ -45,6 +45,8 @@ public:
     bool active() const;
     /// Largest pass that keeps the photons of a pass within bounds, in samples.
     int most_samples() const;
+    /// From the next pass on camera paths start in this share of the pixels only (adaptive sampling).
+    void thin(double share);
     /// Traces and indexes the photons of a pass. False: stopped, there is no map.
     bool trace(const Pass& pass, const std::function<PhotonWorker()>& worker, const std::atomic<bool>& stop);
     /// What camera paths of the pass gather from; null when no photons are traced.

@@ -52,6 +52,7 @@ bool Session::wait(double seconds) {
 }
 
 void Session::cancel() {
+    if (!impl_->cancelled) impl_->cancelled_at = std::max(1e-9, seconds_since(impl_->started));
     impl_->cancelled = true;
     impl_->stop = true;
 }
@@ -77,6 +78,8 @@ Progress Session::progress() const {
             const double left = std::max(0.0, static_cast<double>(settings.time_limit) - spent);
             p.remaining = p.fraction > 0.001 ? std::min(p.remaining, left) : left;
             p.fraction = std::max(p.fraction, std::min(1.0, spent / static_cast<double>(settings.time_limit)));
+        } else if (p.remaining > 0) {
+            p.remaining += s.filter_schedule.last_seconds();
         }
     }
     const auto& b = s.build_stats;

@@ -46,7 +46,7 @@ public:
     /// True when the session has ended; waits at most `seconds`.
     bool wait(double seconds);
     /// Rendering stops soon (within a quarter of a second); the picture so far stays. With use_filter it is filtered once more
-    /// before the session ends ("Filtering"), if that can be afforded; the destructor does not wait for that.
+    /// before the session ends ("Filtering"), if that takes at most 5 s; the destructor does not wait for that.
     void cancel();
     Progress progress() const;
     /// A copy of the picture as it is now; null before the first tile.

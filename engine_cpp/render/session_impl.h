@@ -50,9 +50,10 @@ struct Session::Impl {
     tbb::enumerable_thread_specific<Worker> workers;
 
     std::thread controller;
-    std::atomic<bool> cancelled{false};  // the host's wish
-    std::atomic<bool> stop{false};       // cancelled, or out of time: batches end early
-    std::atomic<bool> abandoned{false};  // nobody waits for the picture: filter runs end early too
+    std::atomic<bool> cancelled{false};   // the host's wish
+    std::atomic<bool> stop{false};        // cancelled, or out of time: batches end early
+    std::atomic<double> cancelled_at{0};  // seconds after the start; 0: not cancelled
+    std::atomic<bool> abandoned{false};   // nobody waits for the picture: filter runs end early too
     std::atomic<std::uint64_t> revision{0};
     std::atomic<std::int64_t> pixel_samples{0};  // pixels that adaptive sampling leaves out count as rendered
     std::atomic<bool> converged{false};          // adaptive sampling has nothing left to do
@@ -110,6 +111,8 @@ struct Session::Impl {
     void run_filter();
     /// The last run, after a cancel or a time limit too.
     void filter_at_end();
+    /// After a cancel: filtering takes longer than the host may be left waiting.
+    bool waited_too_long() const;
     /// Bytes for progress and statistics, which must not look at the film while it grows.
     void measure_film();
     /// What all threads have counted.

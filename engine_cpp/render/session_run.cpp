@@ -129,6 +129,7 @@ void Session::Impl::after_pass(int end) {
     if (adaptive.due(end, taken)) {
         adaptive.update();
         unfinished_pixels = adaptive.active_pixels();
+        photons->thin(static_cast<double>(unfinished_pixels) / (static_cast<double>(region.width) * region.height));
     }
     // Tiles without active pixels were not rendered, and are done all the same.
     pixel_samples = std::int64_t{region.width} * region.height * taken;

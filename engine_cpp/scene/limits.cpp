@@ -10,8 +10,8 @@
 namespace cardioid::scene {
 namespace {
 
-// The film sums 32 values a pixel (film/film.h); a picture has 23, and one is published while the next is made.
-constexpr std::int64_t k_film_bytes_per_pixel = (32 + 2 * 23) * 4;
+// The film sums 36 values a pixel (film/film.h); a picture has 23, and one is published while the next is made.
+constexpr std::int64_t k_film_bytes_per_pixel = (36 + 2 * 23) * 4;
 // Raw, Filtered and Withheld in both pictures, and what a filter run returns.
 constexpr std::int64_t k_filtered_bytes_per_pixel = (2 * 9 + 6) * 4;
 // Clusters of 32 bytes. Measured where glossy and diffuse light mix: 330 bytes a pixel at 16 samples, 480 at 64, 670 at 1024.

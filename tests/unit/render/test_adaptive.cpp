@@ -217,23 +217,21 @@ Comparison compare(const scene::SceneDesc& scene) {
 }
 
 TEST(AdaptiveSession, SamplesAreThoseOfThePlainRender) {
-    for (const auto kind : {scene::IntegratorKind::path_tracing, scene::IntegratorKind::hybrid}) {
-        scene::SceneDesc scene = adaptive_scene(0.02f);
-        scene.settings.integrator = kind;
-        const Comparison c = compare(scene);
-        EXPECT_EQ(c.wrong, 0);
-        EXPECT_GT(c.same, 9 * c.blocks) << "most pixels stop once and for all";
-        EXPECT_GE(c.counts.size(), 3u) << "pixels stop at different times";
-        EXPECT_GE(c.counts.begin()->first, 32u);
-        EXPECT_EQ(c.counts.rbegin()->first, 128u);
-        for (const auto& [n, ignored] : c.counts) EXPECT_EQ(n % 16, 0u);
-    }
+    const Comparison c = compare(adaptive_scene(0.02f));
+    EXPECT_EQ(c.wrong, 0);
+    EXPECT_GT(c.same, 9 * c.blocks) << "most pixels stop once and for all";
+    EXPECT_GE(c.counts.size(), 3u) << "pixels stop at different times";
+    EXPECT_GE(c.counts.begin()->first, 32u);
+    EXPECT_EQ(c.counts.rbegin()->first, 128u);
+    for (const auto& [n, ignored] : c.counts) EXPECT_EQ(n % 16, 0u);
 }
 
 TEST(AdaptiveSession, SameBitsForAnyNumberOfThreads) {
     const ManyThreads threads_of_test;
     scene::SceneDesc scene = adaptive_scene(0.02f);
     scene.settings.filter.use_filter = true;
+    scene.settings.integrator = scene::IntegratorKind::hybrid;
+    scene.settings.photons = 1000;
     scene.settings.threads = 1;
     const Rendered one = render_film(scene);
     for (const int threads : {2, 7}) {
@@ -244,25 +242,34 @@ TEST(AdaptiveSession, SameBitsForAnyNumberOfThreads) {
     }
 }
 
-TEST(AdaptiveSession, EnergyStaysAndNoiseIsWhereItMayBe) {
-    scene::SceneDesc scene = adaptive_scene(0.02f, 512);
-    const Rendered a = render_film(scene);
-    scene.settings.adaptive_threshold = 0;
-    const Rendered full = render_film(scene);
-    const auto mean = [](const Rendered& r) {
-        const auto& d = r.frame->find("Raw")->data;
-        return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
-    };
-    EXPECT_NEAR(mean(a) / mean(full), 1, 0.01);
-    EXPECT_LT(a.stats["adaptive"]["mean_samples"].get<double>(), 400);
-    for (int y = 0; y < 40; ++y) {
-        for (int x = 0; x < 48; ++x)
-            ASSERT_EQ(a.frame->find("Debug Sample Count")->data[static_cast<std::size_t>(48 * y + x)],
-                      a.film->samples(x, y));
+double mean_of_raw(const Rendered& r) {
+    const std::vector<float>& d = raw_of(r);
+    return std::accumulate(d.begin(), d.end(), 0.0) / static_cast<double>(d.size());
+}
+
+TEST(AdaptiveSession, EnergyStaysAndTimeIsSaved) {
+    for (const auto kind : {scene::IntegratorKind::path_tracing, scene::IntegratorKind::hybrid}) {
+        scene::SceneDesc scene = adaptive_scene(0.02f, 512);
+        scene.settings.integrator = kind;
+        scene.settings.photons = 1000;  // or they are given up where camera paths do better
+        const Rendered a = render_film(scene);
+        scene.settings.adaptive_threshold = 0;
+        const Rendered full = render_film(scene);
+        EXPECT_NEAR(mean_of_raw(a) / mean_of_raw(full), 1, 0.01);
+        const double mean = a.stats["adaptive"]["mean_samples"];
+        EXPECT_LT(mean, 400);
+        EXPECT_EQ(a.stats["counts"]["camera_paths"].get<double>(), mean * 48 * 40);
+        if (kind == scene::IntegratorKind::hybrid) {
+            const auto emitted = [](const Rendered& r) { return r.stats["photons"]["emitted"].get<double>(); };
+            EXPECT_LT(emitted(a), 0.9 * emitted(full)) << "photons are thinned with the pixels";
+        }
+        for (int y = 0; y < 40; ++y) {
+            for (int x = 0; x < 48; ++x)
+                ASSERT_EQ(a.frame->find("Debug Sample Count")->data[static_cast<std::size_t>(48 * y + x)],
+                          a.film->samples(x, y));
+        }
+        EXPECT_EQ(full.frame->find("Debug Sample Count"), nullptr);
     }
-    EXPECT_EQ(full.frame->find("Debug Sample Count"), nullptr);
-    EXPECT_EQ(a.stats["counts"]["camera_paths"].get<double>(),
-              a.stats["adaptive"]["mean_samples"].get<double>() * 48 * 40);
 }
 
 TEST(AdaptiveSession, ARangeOfSamplesDecidesByItsOwn) {

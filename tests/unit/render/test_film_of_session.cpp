@@ -38,6 +38,54 @@ TEST(FilmOfASession, IsThereOnceTheSessionHasEnded) {
     EXPECT_EQ(never.film(), nullptr) << "nothing was rendered";
 }
 
+TEST(FilmOfASession, IsNotGivenOutWhileItGrows) {
+    scene::SceneDesc scene = small_scene();
+    scene.settings.samples = 10'000'000;
+    render::Session session(checked(scene));
+    session.start();
+    ASSERT_TRUE(wait_until([&] { return session.progress().samples >= 2; }));
+    EXPECT_EQ(session.film(), nullptr);
+    session.cancel();
+    ASSERT_TRUE(session.wait(10));
+    EXPECT_NE(session.film(), nullptr);
+}
+
+/// Largest difference of a pixel's light in clusters and beside them from its raw light, relative to that.
+double light_lost(const Rendered& r) {
+    const film::Region region = r.film->region();
+    const std::vector<float>& raw = r.frame->find("Raw")->data;
+    double worst = 0;
+    for (int y = 0; y < region.height; ++y) {
+        for (int x = 0; x < region.width; ++x) {
+            float sum[3];
+            r.film->unfiltered(x, y, sum);
+            for (int layer = 0; layer < film::k_layers; ++layer) {
+                for (const film::Cluster& c : r.film->clusters().view(x, y, layer)) {
+                    for (int k = 0; k < 3; ++k) sum[k] += c.radiance[k] / static_cast<float>(r.film->samples(x, y));
+                }
+            }
+            const auto at = static_cast<std::size_t>(3 * (y * region.width + x));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const float expected = raw[at + k];
+                worst = std::max(worst, static_cast<double>(std::fabs(sum[k] - expected) / (expected + 1e-3f)));
+            }
+        }
+    }
+    return worst;
+}
+
+TEST(FilmOfASession, HoldsAllLight) {
+    using scene::IntegratorKind;
+    for (const auto kind : {IntegratorKind::path_tracing, IntegratorKind::hybrid, IntegratorKind::photon_mapping}) {
+        for (const auto schedule : {scene::RadiusSchedule::memoryless, scene::RadiusSchedule::per_pixel}) {
+            scene::SceneDesc scene = small_scene(kind);
+            scene.settings.radius_schedule = schedule;
+            EXPECT_LT(light_lost(render_film(scene)), 1e-4)
+                << static_cast<int>(kind) << ", " << static_cast<int>(schedule);
+        }
+    }
+}
+
 TEST(FilmOfASession, SameClustersForAnyNumberOfThreads) {
     const ManyThreads threads_of_test;
     scene::SceneDesc scene = small_scene(scene::IntegratorKind::hybrid);

@@ -107,7 +107,8 @@ TEST(FilteringSession, ACancelledRenderStillFilters) {
 
 TEST(FilteringSession, CancelledInItsFirstPass) {
     scene::SceneDesc scene = filtered_scene(k_endless);
-    scene.settings.width = scene.settings.height = 1000;
+    scene.settings.width = scene.settings.height = 300;
+    scene.settings.threads = 1;
     Session session(checked(scene));
     session.start();
     ASSERT_TRUE(wait_until([&] { return session.progress().revision > 0; }));
@@ -116,7 +117,7 @@ TEST(FilteringSession, CancelledInItsFirstPass) {
     const FramePointer frame = session.frame();
     EXPECT_TRUE(same_values(combined_rgb(*frame), frame->find("Filtered")->data));
     for (const float v : frame->find("Combined")->data) ASSERT_TRUE(std::isfinite(v));
-    EXPECT_EQ(nlohmann::json::parse(session.stats())["filter"]["runs"], 1);
+    EXPECT_GE(nlohmann::json::parse(session.stats())["filter"]["runs"], 1);
 }
 
 TEST(FilteringSession, ATimeLimitIncludesTheFilter) {
@@ -152,6 +153,22 @@ TEST(FilteringSession, DestroyedWhileItFilters) {
         best = std::min(best, seconds_after(start));
     }
     EXPECT_LT(best, 0.25);
+}
+
+TEST(FilteringSession, ACancelWaitsForTheFilterOnlySoLong) {
+    scene::SceneDesc scene = *slow_filter();
+    scene.settings.filter.filter_method = scene::FilterMethod::thesis;
+    Session session(checked(scene));
+    session.start();
+    ASSERT_TRUE(wait_until([&] { return session.progress().message == "Filtering"; }));
+    const auto start = Clock::now();
+    session.cancel();
+    ASSERT_TRUE(session.wait(60));
+    EXPECT_GT(seconds_after(start), 0.9 * FilterSchedule::k_affordable) << "too fast a filter for this test";
+    EXPECT_LT(seconds_after(start), FilterSchedule::k_affordable + 3);
+    EXPECT_EQ(session.progress().phase, Phase::cancelled);
+    EXPECT_TRUE(same_values(combined_rgb(*session.frame()), session.frame()->find("Raw")->data));
+    EXPECT_NE(session.film(), nullptr);
 }
 
 TEST(FilteringSession, TheShownPictureIsNeverRawAgain) {
