@@ -60,6 +60,22 @@ TEST_P(Edges, NumbersOfSamplesDoNotShow) {
     }
 }
 
+TEST_P(Edges, PixelsOfMoreSamplesHelp) {
+    // Few of the pixels around a column have as few samples as it.
+    const film::Film film = make_film(
+        49, 96, [](int x, int) { return x % 12 == 6 ? 16 : 64; },
+        [](int x, int y, int i) {
+            film::Sample s = wall();
+            light(s, 0, 0.5f + noise(x, y, i));
+            return s;
+        });
+    const Picture before = raw(film), after = filtered(film, filter_settings(GetParam()));
+    const auto noisy = [](const Picture& p) {
+        return moments(p, 18, 0, 1, 96).variance + moments(p, 30, 0, 1, 96).variance;
+    };
+    EXPECT_LT(noisy(after), noisy(before) / 30);
+}
+
 TEST_P(Edges, WhatIsNotFiniteIsDropped) {
     const auto film = [](bool spoilt) {
         return make_film({24, 24, 9}, [=](int x, int y, int i) {
