@@ -24,22 +24,41 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 COPIED = ("CMakeLists.txt", "cmake", "engine_cpp", "tests/unit")
+
+
+def eight_lanes(kernel: str) -> str:
+    """The three arguments of by_width, all of them the kernel of eight lanes."""
+    return ", ".join([f"isa_w8::{kernel}"] * 3)
+
+
 ONE_WIDTH = {  # changes to the copy: paths in 8 lanes only; scalar code uses the single lane of nodes
     "cmake/Rooms.cmake": [
         (
             "        target_sources(cardioid_${room} PRIVATE $<TARGET_OBJECTS:${name}>)",
-            "        if(width EQUAL 8 OR (width EQUAL 1 AND NOT room STREQUAL path))\n"
+            "        if(width EQUAL 8 OR (width EQUAL 1 AND NOT room MATCHES path AND NOT room MATCHES filter))\n"
             "            target_sources(cardioid_${room} PRIVATE $<TARGET_OBJECTS:${name}>)\n"
             "        endif()",
         )
     ],
-    "engine_cpp/path/select_kernels.cpp": [
+    "engine_cpp/simd/width.h": [
         ("if (width == 16) return w16;", "if (w1 == nullptr || w16 == nullptr) return nullptr;"),
         ("return width == 8 ? w8 : w1;", "return w8;"),
-        *[
-            (f"isa_w1::{k}, isa_w8::{k}, isa_w16::{k}", f"isa_w8::{k}, isa_w8::{k}, isa_w8::{k}")
-            for k in ("trace_batch", "trace_photons", "replay_rays")
-        ],
+    ],
+    "engine_cpp/path/select_kernels.cpp": [
+        (f"isa_w1::{k}, isa_w8::{k}, isa_w16::{k}", eight_lanes(k))
+        for k in ("trace_batch", "trace_photons", "replay_rays")
+    ],
+    "engine_cpp/filter/select_kernels.cpp": [
+        ("isa_w1::filter_similar, isa_w8::filter_similar, isa_w16::filter_similar", eight_lanes("filter_similar")),
+        ("isa_w1::geometry_weights, isa_w8::geometry_weights,", eight_lanes("geometry_weights") + ");"),
+        ("                                     isa_w16::geometry_weights);\n", ""),
+    ],
+    "engine_cpp/filter/cross_bilateral_select.cpp": [
+        (
+            "isa_w1::filter_cross_bilateral, isa_w8::filter_cross_bilateral,",
+            eight_lanes("filter_cross_bilateral") + ");",
+        ),
+        ("                                isa_w16::filter_cross_bilateral);\n", ""),
     ],
 }
 FAILED = re.compile(r"^\[  FAILED  \] (\S+)(?: \(|,| *$)", re.MULTILINE)

@@ -113,8 +113,9 @@ MUTANTS = [
         file="engine_cpp/film/film.cpp",
         edits=[
             (
-                "p.radiance[c][k] * inv * exposure_",
-                "p.radiance[c][k] * (c < 3 || p.alpha <= 0 ? inv : 1.0f / p.alpha) * exposure_",
+                "[channel] / static_cast<float>(pixels_[i].samples);",
+                "[channel] / (path_class < 3 || pixels_[i].alpha <= 0 ? static_cast<float>(pixels_[i].samples) : "
+                "pixels_[i].alpha);",
             )
         ],
         tests={EQUIVALENCE: "Equivalence.CoarseReceiver*"},
