@@ -181,6 +181,25 @@ TEST_P(ByClusters, FireflyGoesBrightRegionStays) {
 
 INSTANTIATE_TEST_SUITE_P(Methods, ByClusters, testing::Values(FilterMethod::clusters, FilterMethod::thesis));
 
+TEST(Withheld, EnergyIsInThePictureButNoFirefly) {
+    // Fireflies that have nothing in common, with a tenth of all light, over a texture.
+    const film::Film film = make_film({96, 96, 16}, [](int x, int y, int i) {
+        film::Sample s = wall((x / 2 + y / 2) % 2 == 0 ? 0.9f : 0.5f);
+        light(s, 0, near_to(1, x, y, i));
+        if (x % 12 == 6 && y % 24 == 12 && i == 5) light(s, 1, std::pow(2.1f, static_cast<float>(x / 24 + 5 + y / 24)));
+        if (x == 48 && y == 48 && i == 5) light(s, 2, 9000);
+        return s;
+    });
+    const FilterSettings settings = filter_settings(FilterMethod::clusters, k_density);
+    const filter::Filtered f = filter::run(film, settings, filter::run_serially);
+    const Picture before = raw(film), after{96, 96, f.shown}, withheld{96, 96, f.withheld};
+    EXPECT_GT(moments(withheld).mean, 0.05 * moments(before).mean);
+    EXPECT_NEAR(energy_ratio(after, before), 1, 0.03);
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) EXPECT_LT(after(x, y), (x / 2 + y / 2) % 2 == 0 ? 1.3 : 0.75);
+    }
+}
+
 TEST(Convergence, NoiseFreePoolKeepsItsPeak) {
     const auto pool = [](int x, int y) {
         const float dx = static_cast<float>(x - 24), dy = static_cast<float>(y - 24);
