@@ -9,6 +9,7 @@ being dragged.
 
 from __future__ import annotations
 
+import threading
 import time
 from typing import Any
 
@@ -43,6 +44,7 @@ class Work:
 
 
 _work: Work | None = None
+_ending = threading.Lock()        # so that no change falls between the last look at it and the end of the work
 _pending: dict[str, float] = {}   # scene: when it was changed last
 _problems: dict[str, str] = {}    # scene: why its picture does not follow
 
@@ -54,8 +56,9 @@ def current() -> Work | None:
 
 def state(scene: str) -> tuple[str, float]:
     """For the panel: "filtering" and the share done, "waiting", or ""."""
-    if _work is not None and _work.scene == scene:
-        return "filtering", _work.share
+    work = _work
+    if work is not None and work.scene == scene:
+        return "filtering", work.share
     return ("waiting" if scene in _pending else ""), 0.0
 
 
@@ -80,11 +83,19 @@ def changed(scene: bpy.types.Scene) -> None:
         film_images.follow(scene)
     if not films.of_scene(scene.name):
         return
-    if _work is not None and _work.scene == scene.name:
-        _work.wanted = wanted_settings(scene)
-    elif _may_follow(scene):
+    if not _told_to_work(scene) and _may_follow(scene):
         _pending[scene.name] = time.monotonic()
         _start_timer()
+
+
+def _told_to_work(scene: bpy.types.Scene) -> bool:
+    """The render that filters this scene, if there is one, knows what is wanted now."""
+    wanted = wanted_settings(scene)
+    with _ending:
+        mine = _work is not None and _work.scene == scene.name
+        if mine:
+            _work.wanted = wanted
+    return mine
 
 
 def _may_follow(scene: bpy.types.Scene) -> bool:
@@ -157,21 +168,21 @@ def _tick() -> float | None:
     """Starts what is due, and shows in the panels how it goes."""
     global _work
     windows.redraw_panels()
-    running = bpy.app.is_job_running("RENDER")
-    if _work is not None:
-        _work.missed = 0 if running else _work.missed + 1
-        if _work.missed > k_lost_ticks:
+    work = _work  # the render thread may end it meanwhile
+    if work is not None:
+        work.missed = 0 if bpy.app.is_job_running("RENDER") else work.missed + 1
+        if work.missed > k_lost_ticks:
             _work = None
     for name, since in list(_pending.items()):
         scene = bpy.data.scenes.get(name)
         if scene is None:
             _pending.pop(name, None)
-        elif not running and _work is None and time.monotonic() - since >= k_debounce_seconds:
+        elif _work is None and time.monotonic() - since >= k_debounce_seconds:
+            _pending.pop(name, None)
             found = start(scene)
             if found == k_busy:
                 _pending[name] = time.monotonic()
             else:
-                _pending.pop(name, None)
                 _problems[name] = found
     return k_tick_seconds if _work is not None or _pending else None
 
@@ -190,11 +201,12 @@ def _render_begins(scene: bpy.types.Scene, *_arguments) -> None:
 def _render_ends(scene: bpy.types.Scene, *_arguments) -> None:
     """Called by the render thread: a change that came too late is left to the timer."""
     global _work
-    if _work is not None and _work.scene == scene.name:
-        wanted = _work.wanted
-        if any(kept.settings != wanted for kept in films.of_scene(scene.name).values()):
-            _pending[scene.name] = time.monotonic()
-        _work = None
+    with _ending:
+        if _work is not None and _work.scene == scene.name:
+            wanted = _work.wanted
+            if any(kept.settings != wanted for kept in films.of_scene(scene.name).values()):
+                _pending[scene.name] = time.monotonic()
+            _work = None
 
 
 @persistent

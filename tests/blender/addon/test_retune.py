@@ -65,7 +65,13 @@ def end_job(desk, settings=None):
 
     films.get("Scene", "ViewLayer", "").settings = settings or retune.wanted_settings(bpy.context.scene)
     desk.job_running = False
-    retune._render_ends(bpy.context.scene)
+    call_handlers("render_complete")
+
+
+def call_handlers(name):
+    for handler in getattr(bpy.app.handlers, name):
+        if handler.__module__ == "cardioid.retune":
+            handler(bpy.context.scene, None)
 
 
 def test_a_change_starts_one_job(desk):
@@ -102,7 +108,7 @@ def test_esc_does_not_start_another(desk):
     tick()
     films.get("Scene", "ViewLayer", "").settings = {"use_filter": False}
     desk.job_running = False
-    retune._render_stopped(bpy.context.scene)
+    call_handlers("render_cancel")
     assert retune.current() is None and tick() is None and desk.started == [5]
 
 
@@ -180,10 +186,10 @@ def test_f12_in_between_traces(desk, fake):
 
 
 def test_undo_is_a_change(desk):
-    from cardioid import films, retune
+    from cardioid import films
 
     films.get("Scene", "ViewLayer", "").settings["filter_size"] = 5
-    retune._undone(bpy.context.scene)
+    call_handlers("undo_post")
     tick()
     assert desk.started == [11]
 
