@@ -83,7 +83,8 @@ def against_oidn(scene: str, ours: dict, found: dict[str, dict]) -> list[str]:
     other = found.get("OIDN")
     if other is None:
         return []
-    parts = [f"error {ours['relmse'] / other['relmse']:.2f} of OIDN's"]
+    trimmed = ours["relmse_trim"] / other["relmse_trim"]
+    parts = [f"error {ours['relmse'] / other['relmse']:.2f} of OIDN's (trimmed {trimmed:.2f})"]
     if ours.get("light_edges") is not None:
         parts.append(f"at edges of light {ours['light_edges'] / other['light_edges']:.2f}")
     if ours.get("texture_kept") is not None:

@@ -13,8 +13,11 @@ from .engines import Job
 
 ROOT = Path(__file__).resolve().parents[1]
 HYBRID = ("integrator=hybrid",)
-MEASURED = (*HYBRID, "caustic_roughness=0.1")
-"""The add-on's defaults; a file that is exported for path tracing has others."""
+MODES = {
+    "hybrid": (*HYBRID, "caustic_roughness=0.1"),
+    "path tracing": ("integrator=path_tracing", "caustic_roughness=0"),
+}
+"""The add-on's settings of its integrators, whatever the exported file has."""
 BOUNCES = 16
 FIRST_SEED = 900_001
 """Of the references; measured runs count from 1."""
@@ -24,19 +27,23 @@ FIRST_SEED = 900_001
 class FilterScene:
     """`parts` × `samples` make the reference, under `settings`: in glossy_spheres photons follow rough metal too."""
 
-    name: str
+    file: str
+    mode: str
     parts: int
     samples: int
     settings: tuple[str, ...] = ()
-    chapter: int = 6
+
+    @property
+    def name(self) -> str:
+        return self.file + (" (hybrid)" if self.mode == "hybrid" else "")
 
     @property
     def blend(self) -> Path:
-        return ROOT / "scenes" / f"{self.name}.blend"
+        return ROOT / "scenes" / f"{self.file}.blend"
 
     def job(self, samples: int, seed: int, width: int, threads: int, settings: tuple[str, ...] = ()) -> Job:
         """A measured render. `width` 0: the file's own size."""
-        settings = (*MEASURED, *settings)
+        settings = (*MODES[self.mode], *settings)
         return Job(str(self.blend), "", samples, seed, threads, BOUNCES, True, width, settings=settings)
 
     def reference_job(self, width: int, threads: int) -> Job:
@@ -45,22 +52,26 @@ class FilterScene:
         return Job(str(self.blend), "", self.samples, 0, threads, BOUNCES, True, width, settings=settings)
 
 
+GLOSSY, BUST, GRID = ("glossy_spheres", "bust_in_water", "coloured_grid")
 SCENES = {
     scene.name: scene
     for scene in (
-        FilterScene("glossy_spheres", 8, 48, ("caustic_roughness=0.36",)),
-        FilterScene("bust_in_water", 8, 48),
-        FilterScene("coloured_grid", 4, 64),
-        FilterScene("cornell", 4, 48, chapter=5),
-        FilterScene("metallic_ring", 4, 48, chapter=5),
-        FilterScene("open_plane", 4, 48, chapter=5),
+        FilterScene(GLOSSY, "path tracing", 8, 48, ("caustic_roughness=0.36",)),
+        FilterScene(BUST, "path tracing", 8, 48),
+        FilterScene(GRID, "path tracing", 4, 64),
+        FilterScene(GLOSSY, "hybrid", 8, 48, ("caustic_roughness=0.36",)),
+        FilterScene(BUST, "hybrid", 8, 48),
+        FilterScene("cornell", "hybrid", 4, 48),
+        FilterScene("metallic_ring", "hybrid", 4, 48),
+        FilterScene("open_plane", "hybrid", 4, 48),
     )
 }
+"""Chapter 6 as the thesis renders it, by path tracing; the defaults of the add-on; the camera half of chapter 5."""
 
 
 def surface(cache: Path, scene: FilterScene, width: int) -> regions.Surface:
     """What the camera sees, from Blender; kept until the file changes."""
-    path = cache / "surfaces" / f"{scene.name}-{scene.blend.stat().st_mtime_ns:x}-{width}.exr"
+    path = cache / "surfaces" / f"{scene.file}-{scene.blend.stat().st_mtime_ns:x}-{width}.exr"
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
         script = str(Path(__file__).with_name("render_surface.py"))
@@ -79,7 +90,7 @@ def surface(cache: Path, scene: FilterScene, width: int) -> regions.Surface:
 def referee(records, cache: Path, engine, scene: FilterScene, width: int, threads: int) -> quality.Referee | None:
     """The scene's reference and regions; None if time ran out."""
     job = scene.reference_job(width, threads)
-    found = reference.make(records, cache, engine, scene.name, job, scene.parts, FIRST_SEED)
+    found = reference.make(records, cache, engine, scene.file, job, scene.parts, FIRST_SEED)
     if found is None or found.parts < scene.parts:
         return None
     parts = np.array([exr.load(path) for path in found.paths], np.float64)
