@@ -135,9 +135,9 @@ TEST_P(Exact, AllWidthsOfKernelsAgree) {
 
 TEST_P(Exact, EverySize) {
     for (int width = 1; width <= 20; ++width) {
-        for (int height = 1; height <= 20; height += height < 9 ? 1 : 5) {
+        for (int height = 1; height <= 20; ++height) {
             const film::Film film = rich_film(width, height);
-            const Picture p = filtered(film, filter_settings(GetParam(), k_density)), before = raw(film);
+            const Picture p = filtered(film, filter_settings(GetParam(), k_density));
             ASSERT_EQ(p.rgb.size(), static_cast<std::size_t>(3 * width * height));
             for (const float v : p.rgb) ASSERT_TRUE(std::isfinite(v) && v >= 0) << width << "×" << height;
         }
