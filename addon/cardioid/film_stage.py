@@ -45,8 +45,8 @@ def finish(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: bpy.ty
 
 def fill(engine: bpy.types.RenderEngine, module: ModuleType, scene: str, work: retune.Work, kept: films.Kept,
          target: Target) -> None:
-    """Filters a kept film into the result, following the artist's changes while there are any. Esc leaves the noisy
-    picture, because Blender has thrown away the old one by then."""
+    """Filters a kept film into the result, following the artist's changes while there are any. Esc and a filter that
+    fails leave the noisy picture, because Blender has thrown away the old one by then. Raises the engine's Error."""
     filtering = Refilter(module, kept, work.settings_for(scene, kept), work.threads)
     pending = True
 
@@ -61,8 +61,13 @@ def fill(engine: bpy.types.RenderEngine, module: ModuleType, scene: str, work: r
         engine.update_progress(share)
 
     engine.update_stats("", "Filtering")
-    run(filtering, show, engine.test_break, tell, work.linger)
-    if pending:
-        raw = Refilter(module, kept, {**kept.settings, "use_filter": False}, work.threads)
-        run(raw, target.show, lambda: False, lambda share: None, 0.0)
+    try:
+        run(filtering, show, engine.test_break, tell, work.linger)
+    except module.Error as error:
+        work.failure = str(error)
+        raise
+    finally:
+        if pending:
+            raw = Refilter(module, kept, {**filtering.wanted, "use_filter": False}, work.threads)
+            run(raw, target.show, lambda: False, lambda share: None, 0.0)
     kept.entry["filter"] = kept.stats if kept.settings["use_filter"] else {"seconds": 0}

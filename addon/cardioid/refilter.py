@@ -18,17 +18,17 @@ class Refilter:
 
     def __init__(self, module: ModuleType, kept: Kept, settings: dict[str, Any], threads: int = 0):
         self._module, self._kept, self._threads = module, kept, threads
-        self._wanted = settings
+        self.wanted = settings
         self._told: dict[str, Any] | None = None
         self._job: Any = None
         self._start = 0.0
 
     def want(self, settings: dict[str, Any]) -> None:
-        self._wanted = settings
+        self.wanted = settings
 
     def poll(self, seconds: float = 0.0) -> Any:
         """Waits at most that long; a new frame, or None while there is none. Raises the engine's Error."""
-        wanted = self._wanted
+        wanted = self.wanted
         if wanted != self._told:
             self.cancel()
             self._job = self._module.FilterJob(self._kept.film, _for_job(wanted), self._threads)
@@ -47,7 +47,7 @@ class Refilter:
         return frame
 
     def busy(self) -> bool:
-        return self._job is not None or self._wanted != self._told
+        return self._job is not None or self.wanted != self._told
 
     def fraction(self) -> float:
         job = self._job

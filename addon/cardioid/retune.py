@@ -28,7 +28,8 @@ k_drawing = "in this state (drawing/rendering)"  # Blender's words while another
 
 
 class Work:
-    """A render that only filters. wanted: the latest settings. share: done of the film that is being filtered."""
+    """A render that only filters. wanted: the latest settings. share: done of the film that is being filtered.
+    missed: ticks without a job. failure: why the filter failed."""
 
     def __init__(self, scene: bpy.types.Scene, linger: float):
         self.scene = scene.name
@@ -37,6 +38,7 @@ class Work:
         self.linger = linger
         self.share = 0.0
         self.missed = 0
+        self.failure = ""
 
     def settings_for(self, scene: str, kept: films.Kept) -> dict[str, Any]:
         """Other scenes that the compositor asks for stay as they are."""
@@ -155,8 +157,13 @@ def start(scene: bpy.types.Scene, *, write_still: bool = False) -> str:
             return k_busy
     except RuntimeError as error:
         _work = None
-        return k_busy if k_drawing in str(error) else str(error).removeprefix("Error: ").strip()
+        return k_busy if k_drawing in str(error) else _reason(error)
     return ""
+
+
+def _reason(error: RuntimeError) -> str:
+    """What Blender or the engine says, without who says it."""
+    return str(error).removeprefix("Error: ").removeprefix("Cardioid: ").strip()
 
 
 def _start_timer() -> None:
@@ -204,16 +211,20 @@ def _render_ends(scene: bpy.types.Scene, *_arguments) -> None:
     with _ending:
         if _work is not None and _work.scene == scene.name:
             wanted = _work.wanted
-            if any(kept.settings != wanted for kept in films.of_scene(scene.name).values()):
+            if _work.failure:
+                _problems[scene.name] = _work.failure  # and would fail again
+            elif any(kept.settings != wanted for kept in films.of_scene(scene.name).values()):
                 _pending[scene.name] = time.monotonic()
             _work = None
 
 
 @persistent
 def _render_stopped(scene: bpy.types.Scene, *_arguments) -> None:
-    """By the artist, who does not want it to begin again."""
+    """By the artist, who does not want it to begin again, or by a failure."""
     global _work
     if _work is not None and _work.scene == scene.name:
+        if _work.failure:
+            _problems[scene.name] = _work.failure
         _work = None
 
 

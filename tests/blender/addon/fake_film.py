@@ -20,7 +20,7 @@ jobs: list[FilterJob] = []
 
 def reset() -> None:
     behaviour.filter_seconds = 0.0   # time that a job takes
-    behaviour.fail = ""              # message of a job that fails
+    behaviour.fail = ""              # message of a job that fails: of all that smooth
     behaviour.full_disk = False
     jobs.clear()
 
@@ -113,19 +113,22 @@ class FilterJob:
         self._cancel.set()
 
     def progress(self):
-        phase = "render" if not self._done.is_set() else "failed" if behaviour.fail else (
+        phase = "render" if not self._done.is_set() else "failed" if self._fails() else (
             "cancelled" if self.cancelled else "done")
         share = min(1.0, (time.monotonic() - self._start) / self._seconds) if self._seconds else 1.0
         return {"phase": phase, "fraction": share, "message": behaviour.fail}
 
     def frame(self):
-        if not self._done.is_set() or self.cancelled or behaviour.fail:
+        if not self._done.is_set() or self.cancelled or self._fails():
             return None
         return FilmFrame(self.film, self.settings)
 
     def stats(self):
         return {"seconds": 0.75, "cpu_seconds": 1.5, "clusters": 4000, "singles": 300, "rejected": 100,
                 "rejected_samples": 120, "outlier_share": 0.025, "withheld_share": 0.0125}
+
+    def _fails(self):
+        return behaviour.fail and self.settings["filter_method"] != "none"
 
     def _run(self):
         self._cancel.wait(self._seconds)

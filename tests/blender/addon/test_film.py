@@ -211,14 +211,19 @@ def test_what_is_in_the_way(films, fake):
     assert bpy.ops.cardioid.filter_again() == {"FINISHED"} and len(fake.sessions) == 1
 
 
-def test_a_filter_that_fails(films, fake):
+def test_a_filter_that_fails(films, fake, tmp_path):
     from cardioid import retune
 
     bpy.ops.render.render()
     fake.fake_film.behaviour.fail = "there is not enough memory to filter"
-    with pytest.raises(RuntimeError, match="not enough memory to filter"):
-        bpy.ops.cardioid.filter_again()
-    assert retune.current() is None
+    bpy.context.scene.render.filepath = str(tmp_path / "failed.exr")
+    pictures.set_exr(bpy.context.scene, True)
+    with pytest.raises(RuntimeError, match="Error: Cardioid: there is not enough memory to filter"):
+        bpy.ops.cardioid.filter_again(write_still=True)
+    assert retune.current() is None and "not enough memory" in retune.problem("Scene")
+    assert films.get("Scene", "ViewLayer", "").settings["use_filter"] is False  # the noisy picture is shown
+    if (tmp_path / "failed.exr").exists():
+        assert blue(pictures.read(tmp_path / "failed.exr")) == -1
     fake.fake_film.behaviour.fail = ""
     bpy.ops.render.render()
     assert len(fake.sessions) == 2  # renders again, as F12 should

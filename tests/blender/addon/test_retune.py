@@ -101,6 +101,16 @@ def test_a_change_that_the_job_missed_starts_another(desk):
     assert desk.started == [5, 9]
 
 
+def test_a_failure_is_told_and_not_tried_again(desk):
+    from cardioid import films, retune
+
+    bpy.context.scene.cardioid.filter_size = 5
+    tick()
+    retune.current().failure = "there is not enough memory to filter"
+    end_job(desk, {**films.get("Scene", "ViewLayer", "").settings, "use_filter": False})
+    assert tick() is None and desk.started == [5] and "not enough memory" in retune.problem("Scene")
+
+
 def test_esc_does_not_start_another(desk):
     from cardioid import films, retune
 
