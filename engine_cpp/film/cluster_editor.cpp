@@ -35,6 +35,11 @@ Cluster* copy(const Cluster* from, int n, Cluster* to) {
     return to + n;
 }
 
+/// Whether a sample at the bound of the brighter one could join the darker one.
+bool within_reach(const Cluster& darker, const Cluster& brighter) {
+    return brighter.min - darker.max <= k_join * brighter.min;
+}
+
 float gradient(const Cluster& c) { return (c.max - c.min) / std::max(static_cast<float>(c.samples - 1), 1.0f); }
 
 }  // namespace
@@ -62,6 +67,7 @@ void ClusterEditor::turn_to(int pixel) {
     const Cluster* from = p.begin;
     for (int l = 0; l < k_layers; ++l) {
         lists_[l].count = p.count[l];
+        lists_[l].collapsed = false;
         copy(from, p.count[l], lists_[l].clusters);
         from += p.count[l];
     }
@@ -86,8 +92,16 @@ void ClusterEditor::close() {
     put_back();
     ClusterStore::Block& block = store_->blocks_[static_cast<std::size_t>(block_)];
     int total = 0;
-    for (int pixel = 0; pixel < k_pixels; ++pixel) total += place(pixel).total();
-    auto packed = ClusterStore::allocate(static_cast<std::size_t>(total));
+    bool all_changed = true;
+    for (int pixel = 0; pixel < k_pixels; ++pixel) {
+        const int count = place(pixel).total();
+        total += count;
+        all_changed = all_changed && (count == 0 || changed_[pixel].begin != nullptr);
+    }
+    const int room = ClusterStore::room_for(total);
+    // What is not changed would be written over before it is read.
+    const bool stays = all_changed && room == block.room;
+    auto packed = stays ? std::move(block.clusters) : ClusterStore::allocate(room);
     std::uint16_t begin[k_block_lists + 1] = {};
     Cluster* to = packed.get();
     for (int pixel = 0; pixel < k_pixels; ++pixel) {
@@ -98,6 +112,7 @@ void ClusterEditor::close() {
         changed_[pixel].begin = nullptr;
     }
     block.clusters = std::move(packed);
+    block.room = static_cast<std::uint16_t>(room);
     std::copy(std::begin(begin), std::end(begin), block.begin);
     store_ = nullptr;
     block_ = -1;
@@ -114,17 +129,40 @@ void ClusterEditor::add(List& list, const float (&radiance)[3], float incident, 
     const float below = at > 0 ? incident - clusters[at - 1].max : infinite;
     const float above = at < list.count ? clusters[at].min - incident : infinite;
     const float reach = taken < k_first_batch ? 0.0f : k_join * incident;
-    if (std::min(below, above) <= reach) {
-        Cluster& c = clusters[below <= above ? at - 1 : at];
-        c.min = std::min(c.min, incident);
-        c.max = std::max(c.max, incident);
-        join(c, radiance, incident);
-        return;
+    const bool joins = std::min(below, above) <= reach;
+    const int i = joins && below <= above ? at - 1 : at;
+    if (!joins) {
+        move(clusters + at, clusters + at + 1);
+        clusters[at] = {.min = incident, .max = incident};
+        ++list.count;
     }
-    move(clusters + at, clusters + at + 1);
-    clusters[at] = {.min = incident, .max = incident};
-    join(clusters[at], radiance, incident);
-    if (++list.count > k_max_clusters) merge(list);
+    Cluster& c = clusters[i];
+    c.min = std::min(c.min, incident);
+    c.max = std::max(c.max, incident);
+    join(c, radiance, incident);
+    if (taken >= k_first_batch) {
+        // Where nothing was within reach before, only this cluster and its neighbours can be.
+        const bool apart = list.collapsed && !(i > 0 && within_reach(clusters[i - 1], c)) &&
+                           !(i + 1 < list.count && within_reach(c, clusters[i + 1]));
+        if (!apart) collapse(list);
+        list.collapsed = true;
+    }
+    if (list.count > k_max_clusters) merge(list);
+}
+
+/// Neighbours that a sample could not tell apart are one: what the first batch kept apart where nothing was known yet.
+void ClusterEditor::collapse(List& list) {
+    Cluster* const clusters = list.clusters;
+    int kept = 0;
+    for (int i = 1; i < list.count; ++i) {
+        if (within_reach(clusters[kept], clusters[i])) {
+            clusters[kept].max = clusters[i].max;
+            join(clusters[kept], clusters[i]);
+        } else if (++kept != i) {
+            clusters[kept] = clusters[i];
+        }
+    }
+    list.count = std::min(list.count, kept + 1);
 }
 
 /// Makes one of the two neighbours that are most alike (thesis 6.7 as spec 4 reads it; the factor 1/max_n changes no

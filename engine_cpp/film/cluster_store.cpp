@@ -23,16 +23,19 @@ void ClusterStore::assign(int x, int y, int layer, std::span<const Cluster> clus
     Block& block = blocks_[static_cast<std::size_t>(y / k_block * columns_ + x / k_block)];
     const std::size_t list = static_cast<std::size_t>(pixel_index(x, y) * k_layers + layer);
     const std::size_t before = block.begin[list], after = block.begin[list + 1], end = block.begin[k_block_lists];
-    auto packed = allocate(end - (after - before) + clusters.size());
+    const int room = room_for(static_cast<int>(end - (after - before) + clusters.size()));
+    auto packed = allocate(room);
     Cluster* to = std::copy_n(block.clusters.get(), before, packed.get());
     to = std::copy(clusters.begin(), clusters.end(), to);
     std::copy(block.clusters.get() + after, block.clusters.get() + end, to);
     block.clusters = std::move(packed);
+    block.room = static_cast<std::uint16_t>(room);
     for (std::size_t i = list + 1; i <= k_block_lists; ++i)
         block.begin[i] = static_cast<std::uint16_t>(block.begin[i] - (after - before) + clusters.size());
 }
 
-std::unique_ptr<Cluster[]> ClusterStore::allocate(std::size_t n) {
+std::unique_ptr<Cluster[]> ClusterStore::allocate(int room) {
+    const auto n = static_cast<std::size_t>(room);
     auto clusters = std::make_unique_for_overwrite<Cluster[]>(n + k_copied - 1);
     std::fill_n(clusters.get() + n, k_copied - 1, Cluster{});
     return clusters;
@@ -53,9 +56,10 @@ std::int64_t ClusterStore::single_count() const {
 }
 
 std::int64_t ClusterStore::memory_bytes() const {
-    const auto blocks = static_cast<std::int64_t>(blocks_.size());
-    return (cluster_count() + blocks * (k_copied - 1)) * static_cast<std::int64_t>(sizeof(Cluster)) +
-           blocks * static_cast<std::int64_t>(sizeof(Block));
+    std::int64_t clusters = 0;
+    for (const Block& b : blocks_) clusters += b.room + k_copied - 1;
+    return clusters * static_cast<std::int64_t>(sizeof(Cluster)) +
+           static_cast<std::int64_t>(blocks_.size() * sizeof(Block));
 }
 
 bool valid(std::span<const Cluster> list, std::uint32_t samples) {

@@ -49,11 +49,14 @@ public:
 private:
     friend class ClusterEditor;
     friend class FilmFile;
-    static std::unique_ptr<Cluster[]> allocate(std::size_t n);
     struct Block {
-        std::unique_ptr<Cluster[]> clusters;          ///< k_copied - 1 more than there are
+        std::unique_ptr<Cluster[]> clusters;  ///< room for `room` and k_copied - 1 more
+        std::uint16_t room = 0;
         std::uint16_t begin[k_block_lists + 1] = {};  ///< of each list; the last one is the end
     };
+    /// Room for n, rounded up: blocks that grow by a few clusters stay where they are.
+    static int room_for(int n) { return (n + 31) / 32 * 32; }
+    static std::unique_ptr<Cluster[]> allocate(int room);
     int width_ = 0, height_ = 0, columns_ = 0;
     std::vector<Block> blocks_;
 };
@@ -91,6 +94,7 @@ private:
     static constexpr int k_pixel_clusters = k_layers * k_max_clusters;
     struct List {
         int count = 0;
+        bool collapsed = false;                    ///< known to have no neighbours within reach of each other
         Cluster clusters[2 * k_max_clusters + 1];  ///< one more than is kept, and room to move k_max_clusters at once
     };
     /// Where the clusters of a pixel are.
@@ -103,6 +107,7 @@ private:
     void turn_to(int pixel);
     void put_back();
     static void add(List& list, const float (&radiance)[3], float incident, std::uint32_t taken);
+    static void collapse(List& list);
     static void merge(List& list);
 
     ClusterStore* store_ = nullptr;

@@ -172,7 +172,8 @@ void FilmFile::read_clusters(ClusterStore& store, std::uint64_t total, Reader& i
         sum += rows.size();
         if (sum > total) break;
         in.read(rows);
-        block.clusters = ClusterStore::allocate(rows.size());
+        block.room = static_cast<std::uint16_t>(ClusterStore::room_for(block.begin[k_block_lists]));
+        block.clusters = ClusterStore::allocate(block.room);
         const Cluster* from = rows.data();
         for (const int pixel : k_rows) {
             const std::uint16_t* begin = block.begin + pixel * k_layers;

@@ -39,6 +39,13 @@ public:
         home->min = std::min(home->min, y);
         home->max = std::max(home->max, y);
         ++home->samples;
+        for (std::size_t i = 0; taken >= 4 && i + 1 < list_.size();) {
+            if (list_[i + 1].min - list_[i].max <= 0.5f * list_[i + 1].min) {
+                unite(i);
+            } else {
+                ++i;
+            }
+        }
         if (list_.size() > 8) merge();
     }
     const std::vector<Cluster>& list() const { return list_; }
@@ -48,12 +55,14 @@ private:
         return c.samples == 1 ? 0.0f : (c.max - c.min) / static_cast<float>(c.samples - 1);
     }
     void merge() {
-        std::size_t best = 0;
         std::vector<float> m;
         for (std::size_t i = 0; i + 1 < list_.size(); ++i)
             m.push_back(0.75f * std::abs(gradient(list_[i]) - gradient(list_[i + 1])) +
                         (list_[i + 1].min - list_[i].max));
-        best = static_cast<std::size_t>(std::min_element(m.begin(), m.end()) - m.begin());
+        unite(static_cast<std::size_t>(std::min_element(m.begin(), m.end()) - m.begin()));
+    }
+    /// With the one after it.
+    void unite(std::size_t best) {
         Cluster& a = list_[best];
         const Cluster& b = list_[best + 1];
         for (int k = 0; k < 3; ++k) a.radiance[k] += b.radiance[k];
