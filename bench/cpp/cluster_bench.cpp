@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What clusters cost while rendering: nanoseconds to add one camera path's three layers, by samples a pixel in each pass,
-// and bytes a pixel. Light as scenes have it: a penumbra and two lamps in layer 1, exponential inter-reflection in layers
-// 2 and 3.
+// What clusters cost while rendering: nanoseconds to add one camera path's three layers, by samples a pixel in each
+// pass, and bytes a pixel. Light as scenes have it: a penumbra and two lamps in layer 1, exponential inter-reflection
+// in layers 2 and 3.
 #include "film/film.h"
 #include "film/film_file.h"
 

@@ -6,7 +6,8 @@
 
 namespace cardioid::film {
 
-/// Layers of incident light by how often it was scattered before x_d, the first surface that a path meets with a D lobe.
+/// Layers of incident light by how often it was scattered before x_d, the first surface that a path meets with a D
+/// lobe.
 inline constexpr int k_layers = 3;  ///< 0: straight from a lamp, 1: scattered once, 2: more often
 inline constexpr int k_max_clusters = 8;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cluster lists of all pixels behind a narrow interface. They are kept packed by blocks of 8 × 8 pixels, exactly as long as
-// they are; a block is packed anew after samples were added to it (dense storage would take 1.6 GB at 1080p).
+// Cluster lists of all pixels behind a narrow interface. They are kept packed by blocks of 8 × 8 pixels, exactly as
+// long as they are; a block is packed anew after samples were added to it (dense storage would take 1.6 GB at 1080p).
 #pragma once
 
 #include "film/cluster.h"
@@ -36,8 +36,8 @@ public:
 
     int width() const { return width_; }
     int height() const { return height_; }
-    /// Ascending in luminance, disjoint, at most k_max_clusters. x, y in [0, width) × [0, height). Not while an editor has
-    /// the pixel's block open.
+    /// Ascending in luminance, disjoint, at most k_max_clusters. x, y in [0, width) × [0, height). Not while an editor
+    /// has the pixel's block open.
     std::span<const Cluster> view(int x, int y, int layer) const;
     /// Replaces a pixel's list (tests, files, merging of films). Invariants are the caller's.
     void assign(int x, int y, int layer, std::span<const Cluster> clusters);
@@ -64,8 +64,8 @@ private:
 /// Whether a list is one that an editor could have made of at most `samples` samples.
 bool valid(std::span<const Cluster> list, std::uint32_t samples);
 
-/// A thread's working memory: a block, and the lists of one of its pixels spread out. Blocks are owned by one thread at a
-/// time. Quick where the samples of a pixel follow each other, quickest where pixels come in Morton order.
+/// A thread's working memory: a block, and the lists of one of its pixels spread out. Blocks are owned by one thread at
+/// a time. Quick where the samples of a pixel follow each other, quickest where pixels come in Morton order.
 class ClusterEditor {
 public:
     /// Packs the block that was open, if another one.

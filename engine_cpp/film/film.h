@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums of samples per pixel: apart by path class, and as clusters of incident light in layers, from which the picture can be
-// filtered after the render. A pixel belongs to one task at a time, which adds its samples in order, so the bits do not depend
-// on the number of threads or on how samples are grouped into passes.
+// Sums of samples per pixel: apart by path class, and as clusters of incident light in layers, from which the picture
+// can be filtered after the render. A pixel belongs to one task at a time, which adds its samples in order, so the bits
+// do not depend on the number of threads or on how samples are grouped into passes.
 #pragma once
 
 #include "film/cluster_store.h"
@@ -66,16 +66,17 @@ public:
     /// The per-pixel schedule's photons, as means of the classes D2…C2; they replace what was told before.
     void set_photons(int x, int y, const float (&classes)[k_classes - 1][3]);
 
-    /// An empty picture of the region's size: Combined, Depth, Normal, D1 … C2; with clusters also Raw, Filtered, Withheld.
+    /// An empty picture of the region's size: Combined, Depth, Normal, D1 … C2; with clusters also Raw, Filtered,
+    /// Withheld.
     Frame make_frame() const;
     /// Raw light of a pixel with exposure, as resolve() writes it.
     void raw(int x, int y, float (&rgb)[3]) const;
-    /// Writes the raw means of the pixels inside `part` (frame coordinates) into `frame`: Combined (unless `keep_combined`), Raw
-    /// and the classes.
+    /// Writes the raw means of the pixels inside `part` (frame coordinates) into `frame`: Combined (unless
+    /// `keep_combined`), Raw and the classes.
     void resolve(const Region& part, Frame& frame, bool keep_combined = false) const;
 
-    /// Adaptive sampling (as Cycles): error of the pixel relative to its brightness; below the threshold it is done. Infinite with
-    /// less than two samples. Needs settings.adaptive_threshold > 0.
+    /// Adaptive sampling (as Cycles): error of the pixel relative to its brightness; below the threshold it is done.
+    /// Infinite with less than two samples. Needs settings.adaptive_threshold > 0.
     float noise(int x, int y) const;
 
     std::int64_t memory_bytes() const;
@@ -113,13 +114,13 @@ private:
     ClusterStore clusters_;             ///< empty when settings.record_clusters is off
 };
 
-/// Adds samples; one per thread. A pixel's samples come in order, from one thread at a time; blocks of 8 × 8 pixels (from the
-/// region's corner) belong to one thread at a time.
+/// Adds samples; one per thread. A pixel's samples come in order, from one thread at a time; blocks of 8 × 8 pixels
+/// (from the region's corner) belong to one thread at a time.
 class FilmWriter {
 public:
     void open(Film& film) { film_ = &film; }
-    /// x, y in the whole frame. `first`: this is the pixel's first sample, which gives the Depth pass its value (depth is not
-    /// averaged). Returns false for a sample with a value that is not finite or beyond 1e30: it is dropped.
+    /// x, y in the whole frame. `first`: this is the pixel's first sample, which gives the Depth pass its value (depth
+    /// is not averaged). Returns false for a sample with a value that is not finite or beyond 1e30: it is dropped.
     bool add(int x, int y, const Sample& sample, bool first);
     /// Before another thread may read or write the pixels.
     void close();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a film file begins with: a header of 32 bytes and a JSON object (docs/film-file.md). Errors are SceneErrors whose
-// text follows the file's name.
+// What a film file begins with: a header of 32 bytes and a JSON object (docs/film-file.md). Errors are SceneErrors
+// whose text follows the file's name.
 #pragma once
 
 #include "film/film.h"
@@ -41,8 +41,8 @@ std::string write_contents(const FilmContents& contents);
 /// Regions are sound and filter settings in their ranges.
 FilmContents read_contents(const std::string& text);
 
-/// Compares the length of the file with what its beginning promises, so that no array is larger than the file, and with the
-/// machine's memory. `per_pixel`: bytes of all arrays of pixels together.
+/// Compares the length of the file with what its beginning promises, so that no array is larger than the file, and with
+/// the machine's memory. `per_pixel`: bytes of all arrays of pixels together.
 void check_film_size(const FilmContents& contents, const FilmHeader& header, std::uint64_t size,
                      std::uint64_t per_pixel);
 
