@@ -31,15 +31,17 @@ inline Measure measure_incident(const film::Cluster& c) {
 }
 
 /// By the light that is added to the pixel. Samples of a glossy lobe arrive dim and are added bright, I = R/f, so that I would
-/// rank them last. The dim samples of a cluster are no evidence for its bright ones: it counts as (ΣR)²/ΣR² of the latter.
+/// rank them last. The dim samples of a cluster are no evidence for its bright ones: it counts as (ΣR)²/ΣR² of the latter, and
+/// the fewer they are of its samples the nearer to them it begins.
 inline Measure measure_added(const film::Cluster& c) {
     const float sum = film::luminance(c.radiance);
     if (!(sum > 0) || !(c.radiance_squared > 0)) return {{}, static_cast<std::int64_t>(c.samples) * k_evidence};
+    const auto samples = static_cast<float>(c.samples);
     const Range range = Range{c.min, c.max} * (sum / c.incident);
     const float bright = c.radiance_squared / sum;
-    const double alike =
-        std::min(static_cast<double>(sum) * (sum / c.radiance_squared), static_cast<double>(c.samples));
-    return {{range.low, std::max(range.high, bright)}, std::llround(alike * k_evidence)};
+    const float alike = std::min(sum * (sum / c.radiance_squared), samples);
+    const float low = bright - (bright - range.low) * (alike / samples);
+    return {{low, std::max(range.high, bright)}, std::llround(static_cast<double>(alike) * k_evidence)};
 }
 
 /// How many samples of `m`, whose ends are two of them, lie in a range that it touches.
