@@ -114,7 +114,7 @@ def read(path: Path) -> FilmFile:
     end = len(data) - 8 - total * CLUSTER.itemsize
     start = end - blocks * BLOCK * BLOCK * LAYERS
     counts = np.frombuffer(data, np.uint8, end - start, start).reshape(blocks, -1)
-    extra = 12 * contents["odd_samples"] + 48 * contents["photons"]
+    extra = 48 * contents["photons"]
     if start - at - pixels.nbytes != extra * width * height:
         raise ValueError(f"{path}: its pixels have another layout than this reader knows")
     return FilmFile(

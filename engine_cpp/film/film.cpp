@@ -20,6 +20,8 @@ float total(const float (&c)[3]) { return c[0] + c[1] + c[2]; }
 
 /// Sums of 2^24 samples below this are finite.
 constexpr float k_largest = 1e30f;
+/// Luminances beyond this count as this where they are squared.
+constexpr float k_largest_squared = 1e15f;
 
 /// Small exactly where every value of the sample is, or where large ones cancel out.
 float checksum(const Sample& s) {
@@ -38,20 +40,12 @@ Region crop_region(const scene::Settings& s) {
     return {x0, y0, std::min(c[2], s.width - x0), std::min(c[3], s.height - y0)};
 }
 
-void add_to_class(Frame& frame, std::size_t pixel, int path_class, const float (&rgb)[3], float scale) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        frame.passes[static_cast<std::size_t>(pass_classes + path_class)].data[3 * pixel + k] += rgb[k] * scale;
-        frame.passes[pass_combined].data[4 * pixel + k] += rgb[k] * scale;
-    }
-}
-
 Film::Film(const scene::Settings& settings)
     : region_(crop_region(settings)),
       exposure_(settings.exposure),
       transparent_(settings.transparent_film),
       filter_(settings.filter),
-      pixels_(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height)),
-      odd_(settings.adaptive_threshold > 0 ? pixels_.size() : 0) {
+      pixels_(static_cast<std::size_t>(region_.width) * static_cast<std::size_t>(region_.height)) {
     if (settings.record_clusters || settings.filter.use_filter) clusters_ = ClusterStore(region_.width, region_.height);
 }
 
@@ -72,7 +66,7 @@ bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
         p.feature_depth += sample.feature_depth;
         p.feature_depth_squared += sample.feature_depth_squared;
         accumulate(p.mirrored_detail, sample.mirrored_detail);
-        const float mirrored = luminance(sample.mirrored_detail);
+        const float mirrored = std::min(luminance(sample.mirrored_detail), k_largest_squared);
         p.mirrored_detail_squared += mirrored * mirrored;
         editor_.open(film_->clusters_, x, y);
         for (int l = 0; l < k_layers; ++l) {
@@ -80,9 +74,6 @@ bool FilmWriter::add(int x, int y, const Sample& sample, bool first) {
             // Light of negative lamps has no place among clusters: it stays as it is.
             if (!kept) accumulate(p.unfiltered, sample.layers[l].radiance);
         }
-    }
-    if (!film_->odd_.empty() && (p.samples & 1) != 0) {
-        for (const auto& c : sample.radiance) accumulate(film_->odd_[i].rgb, c);
     }
     ++p.samples;
     return true;
@@ -122,24 +113,6 @@ void Film::set_photons(int x, int y, const float (&classes)[k_classes - 1][3]) {
     if (photons_.empty()) photons_.resize(pixels_.size());
     auto& to = photons_[static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x)].classes;
     for (int c = 0; c < k_classes - 1; ++c) std::copy_n(classes[c], 3, to[c]);
-}
-
-float Film::noise(int x, int y) const {
-    const std::size_t i = static_cast<std::size_t>(y) * region_.width + static_cast<std::size_t>(x);
-    const Pixel& p = pixels_[i];
-    if (p.samples < 2) return std::numeric_limits<float>::infinity();
-    const float of_all = exposure_ / static_cast<float>(p.samples),
-                of_odd = exposure_ / static_cast<float>(p.samples / 2);
-    float difference = 0, brightness = 0;
-    for (int k = 0; k < 3; ++k) {
-        float sum = 0;
-        for (const auto& c : p.radiance) sum += c[k];
-        difference += std::abs(sum * of_all - odd_[i].rgb[k] * of_odd);
-        brightness += sum * of_all;
-    }
-    // Overexposed pixels may be noisier; negative lamps leave nothing to compare with.
-    const float allowed = brightness < 1 ? std::sqrt(std::max(brightness, 0.0f)) : brightness;
-    return difference / (1e-4f + allowed);
 }
 
 Frame Film::make_frame() const {
@@ -200,8 +173,7 @@ void Film::resolve(const Region& part, Frame& frame, bool keep_combined) const {
 }
 
 std::int64_t Film::memory_bytes() const {
-    return static_cast<std::int64_t>(pixels_.size() * sizeof(Pixel) + odd_.size() * sizeof(Rgb) +
-                                     photons_.size() * sizeof(PhotonMeans)) +
+    return static_cast<std::int64_t>(pixels_.size() * sizeof(Pixel) + photons_.size() * sizeof(PhotonMeans)) +
            clusters_.memory_bytes();
 }
 

@@ -75,10 +75,6 @@ public:
     /// `keep_combined`), Raw and the classes.
     void resolve(const Region& part, Frame& frame, bool keep_combined = false) const;
 
-    /// Adaptive sampling (as Cycles): error of the pixel relative to its brightness; below the threshold it is done.
-    /// Infinite with less than two samples. Needs settings.adaptive_threshold > 0.
-    float noise(int x, int y) const;
-
     std::int64_t memory_bytes() const;
 
 private:
@@ -93,9 +89,6 @@ private:
         float normal[3] = {0, 0, 0};
         std::uint32_t samples = 0;
     };
-    struct Rgb {
-        float rgb[3] = {};
-    };
     struct PhotonMeans {
         float classes[k_classes - 1][3] = {};
     };
@@ -109,7 +102,6 @@ private:
     bool transparent_;
     scene::FilterSettings filter_;
     std::vector<Pixel> pixels_;
-    std::vector<Rgb> odd_;              ///< sums of every second sample; with adaptive sampling alone
     std::vector<PhotonMeans> photons_;  ///< empty but for the per-pixel schedule
     ClusterStore clusters_;             ///< empty when settings.record_clusters is off
 };
@@ -129,9 +121,6 @@ private:
     Film* film_ = nullptr;
     ClusterEditor editor_;
 };
-
-/// Adds rgb × scale to a pixel of the class's pass (0: D1, …) and to Combined.
-void add_to_class(Frame& frame, std::size_t pixel, int path_class, const float (&rgb)[3], float scale);
 
 /// The crop of the settings, or the whole frame; clipped to the frame.
 Region crop_region(const scene::Settings& settings);

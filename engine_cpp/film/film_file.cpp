@@ -74,7 +74,6 @@ void FilmFile::save(const Film& film, const std::filesystem::path& path) {
     const std::string text = write_contents({.region = film.region_,
                                              .exposure = film.exposure_,
                                              .transparent = film.transparent_,
-                                             .odd = !film.odd_.empty(),
                                              .photons = !film.photons_.empty(),
                                              .clusters = film.has_clusters(),
                                              .pixel_bytes = sizeof(Film::Pixel),
@@ -90,7 +89,6 @@ void FilmFile::save(const Film& film, const std::filesystem::path& path) {
         put(bytes_of(header));
         put(std::as_bytes(std::span(text)));
         put(std::as_bytes(std::span(film.pixels_)));
-        put(std::as_bytes(std::span(film.odd_)));
         put(std::as_bytes(std::span(film.photons_)));
         for (const ClusterStore::Block& b : film.clusters_.blocks_) put(bytes_of(counts_of(b)));
         std::vector<Cluster> rows;
@@ -126,9 +124,7 @@ Film FilmFile::read(const std::filesystem::path& path) {
     if (c.pixel_bytes != sizeof(Film::Pixel))
         throw SceneError("was written by another Cardioid: its pixels have " + std::to_string(c.pixel_bytes) +
                          " bytes, not " + std::to_string(sizeof(Film::Pixel)));
-    check_film_size(
-        c, header, size,
-        sizeof(Film::Pixel) + (c.odd ? sizeof(Film::Rgb) : 0) + (c.photons ? sizeof(Film::PhotonMeans) : 0));
+    check_film_size(c, header, size, sizeof(Film::Pixel) + (c.photons ? sizeof(Film::PhotonMeans) : 0));
 
     scene::Settings settings;
     settings.width = c.region.x + c.region.width;
@@ -136,13 +132,11 @@ Film FilmFile::read(const std::filesystem::path& path) {
     settings.crop = {c.region.x, c.region.y, c.region.width, c.region.height};
     settings.exposure = c.exposure;
     settings.transparent_film = c.transparent;
-    settings.adaptive_threshold = c.odd ? 1.0f : 0.0f;
     settings.record_clusters = c.clusters;
     settings.filter = c.filter;
     Film film(settings);
     if (!c.clusters) film.clusters_ = {};
     in.read(film.pixels_);
-    in.read(film.odd_);
     if (c.photons) film.photons_.resize(film.pixels_.size());
     in.read(film.photons_);
     read_clusters(film.clusters_, header.clusters, in);
@@ -192,7 +186,7 @@ void FilmFile::check(const Film& film) {
         });
     };
     // A pixel's number of samples is checked as a float with the rest: it is finite below 2^31 - 2^23.
-    if (!all_finite(film.pixels_) || !all_finite(film.odd_) || !all_finite(film.photons_))
+    if (!all_finite(film.pixels_) || !all_finite(film.photons_))
         throw SceneError("is damaged: a pixel is not a number");
     if (!film.has_clusters()) return;
     for (int y = 0; y < film.region_.height; ++y) {

@@ -47,7 +47,6 @@ FilmContents parse(const std::string& text) {
         throw SceneError("is damaged: its exposure is not a number");
     c.exposure = static_cast<float>(exposure);
     c.transparent = json.at("transparent_film").get<bool>();
-    c.odd = json.at("odd_samples").get<bool>();
     c.photons = json.at("photons").get<bool>();
     c.clusters = json.at("clusters").get<bool>();
     c.pixel_bytes = json.at("pixel_bytes").get<int>();
@@ -77,7 +76,6 @@ std::string write_contents(const FilmContents& c) {
     const Json json = {{"region", {c.region.x, c.region.y, c.region.width, c.region.height}},
                        {"exposure", c.exposure},
                        {"transparent_film", c.transparent},
-                       {"odd_samples", c.odd},
                        {"photons", c.photons},
                        {"clusters", c.clusters},
                        {"pixel_bytes", c.pixel_bytes},

@@ -29,7 +29,7 @@ static_assert(sizeof(FilmHeader) == 32);
 struct FilmContents {
     Region region;
     float exposure = 1;
-    bool transparent = false, odd = false, photons = false, clusters = false;
+    bool transparent = false, photons = false, clusters = false;
     int pixel_bytes = 0;  ///< of the sums of a pixel
     scene::FilterSettings filter;
 };

@@ -165,7 +165,7 @@ def test_costs_are_judged_and_the_thesiss_rows_are_not():
 
 def film_bytes(width: int = 10, height: int = 9) -> bytes:
     """A film whose pixel (9, 8) alone has clusters: two of direct light, one of deep light."""
-    contents = {"region": [0, 0, width, height], "clusters": True, "odd_samples": False, "photons": False}
+    contents = {"region": [0, 0, width, height], "clusters": True, "photons": False}
     text = json.dumps(contents).encode()
     text += b" " * (-len(text) % 16)
     pixels = np.zeros((height, width), film_reader.PIXEL)

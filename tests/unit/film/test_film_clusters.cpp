@@ -177,37 +177,5 @@ TEST(FilmClusters, PhotonMeansReplaceEachOther) {
     EXPECT_FLOAT_EQ(frame.find("D2")->data[5], 3);
 }
 
-float noise_of(const std::vector<float>& values, float exposure = 1) {
-    scene::Settings settings = settings_of(1, 1);
-    settings.adaptive_threshold = 0.01f;
-    settings.exposure = exposure;
-    Film film(settings);
-    FilmWriter writer;
-    writer.open(film);
-    for (const float v : values) {
-        Sample s;
-        // Half of it direct, half indirect: classes count together.
-        s.radiance[1][0] = s.radiance[2][0] = 0.5f * v;
-        writer.add(0, 0, s, false);
-    }
-    writer.close();
-    return film.noise(0, 0);
-}
-
-TEST(FilmNoise, IsThatOfCycles) {
-    // Mean 0.25, of every second sample 0.36.
-    EXPECT_NEAR(noise_of({0.1f, 0.3f, 0.18f, 0.42f}), 0.11f / (0.5f + 1e-4f), 1e-6f);
-    // Over 1 the brightness itself: mean 4, of every second 6.
-    EXPECT_NEAR(noise_of({2, 6}), 2 / (4 + 1e-4f), 1e-6f);
-    EXPECT_NEAR(noise_of({0.02f, 0.06f}, 100), 2 / (4 + 1e-4f), 1e-5f);
-    EXPECT_EQ(noise_of({0, 0, 0, 0}), 0.0f);
-    EXPECT_EQ(noise_of({1, 1, 1, 1}), 0.0f);
-    // Five samples: all of them against two.
-    EXPECT_NEAR(noise_of({0.1f, 0.2f, 0.3f, 0.4f, 0.25f}), 0.05f / (0.5f + 1e-4f), 1e-6f);
-    EXPECT_TRUE(std::isfinite(noise_of({-1, -2})));
-    EXPECT_EQ(noise_of({1}), std::numeric_limits<float>::infinity());
-    EXPECT_EQ(noise_of({}), std::numeric_limits<float>::infinity());
-}
-
 }  // namespace
 }  // namespace cardioid::film
