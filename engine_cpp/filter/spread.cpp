@@ -106,14 +106,14 @@ bool spread_withheld(const film::Film& film, const Rejection& rejection, const P
         }
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        // Weighed by detail: the energy that a pixel lost is what its surroundings gain.
-        std::vector<float> weight(picture.detail[k]);
-        for (float& d : weight) d = d > k_darkest_detail ? d : 0.0f;
-        if (!blur(rgb[k], w, h, half, for_each) || !blur(weight, w, h, half, for_each)) return false;
-        for (std::size_t i = 0; i < size; ++i) {
-            const float d = picture.detail[k][i];
-            rgb[k][i] = weight[i] > 0 && d > k_darkest_detail ? rgb[k][i] / weight[i] * d : 0.0f;
-        }
+        const std::vector<float>& detail = picture.detail[k];
+        std::vector<float> around(size);
+        for (std::size_t i = 0; i < size; ++i) around[i] = detail[i] > k_darkest_detail ? detail[i] : 0.0f;
+        if (!blur(around, w, h, half, for_each)) return false;
+        // Divided by the detail around where the light comes from: what a pixel loses its surroundings gain, at borders too.
+        for (std::size_t i = 0; i < size; ++i) rgb[k][i] = around[i] > 0 ? rgb[k][i] / around[i] : 0.0f;
+        if (!blur(rgb[k], w, h, half, for_each)) return false;
+        for (std::size_t i = 0; i < size; ++i) rgb[k][i] *= detail[i] > k_darkest_detail ? detail[i] : 0.0f;
     }
     return true;
 }

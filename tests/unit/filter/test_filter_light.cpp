@@ -194,9 +194,10 @@ TEST(Withheld, EnergyIsInThePictureButNoFirefly) {
     const filter::Filtered f = filter::run(film, settings, filter::run_serially);
     const Picture before = raw(film), after{96, 96, f.shown}, withheld{96, 96, f.withheld};
     EXPECT_GT(moments(withheld).mean, 0.05 * moments(before).mean);
-    EXPECT_NEAR(energy_ratio(after, before), 1, 0.03);
+    EXPECT_NEAR(energy_ratio(after, before), 1, 0.005);
+    // 0.9 and 0.5 with a tenth more on average, which is brighter around the one of 9000 and in corners.
     for (int y = 0; y < 96; ++y) {
-        for (int x = 0; x < 96; ++x) EXPECT_LT(after(x, y), (x / 2 + y / 2) % 2 == 0 ? 1.3 : 0.75);
+        for (int x = 0; x < 96; ++x) EXPECT_LT(after(x, y), (x / 2 + y / 2) % 2 == 0 ? 1.35 : 0.75);
     }
 }
 
