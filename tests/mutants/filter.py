@@ -38,7 +38,10 @@ MUTANTS = [
         file="engine_cpp/filter/reject.cpp",
         edits=[
             ("if (q.brightest[layer] * std::max(texture, 1.0f) < like.low) continue;", ""),
-            ("clusters_.view(qx, qy, layer), like, texture);", "clusters_.view(qx, qy, 2), like, texture);"),
+            (
+                "clusters_.view(qx, qy, layer), like, texture);",
+                "clusters_.view(qx, qy, layer < 2 ? 2 : 2), like, texture);",
+            ),
         ],
         tests={REJECT: "Reject.OnlyLikeSamplesOfTheSameLayerNearbyCount"},
     ),
