@@ -142,8 +142,8 @@ def cpp_tests() -> Counts:
         summary = Path(folder) / "ctest.xml"
         cases = Path(folder) / "cases"
         command = ["ctest", "--test-dir", BUILD, "--parallel", os.cpu_count() or 1, "--output-on-failure"]
-        command += ["--label-exclude", "long", "--timeout", 300, "--no-tests=error", "--output-junit", summary]
-        outcome = run("ctest", command, seconds=900, env={"GTEST_OUTPUT": f"xml:{cases}/"})
+        command += ["--label-exclude", "long", "--timeout", 600, "--no-tests=error", "--output-junit", summary]
+        outcome = run("ctest", command, seconds=1500, env={"GTEST_OUTPUT": f"xml:{cases}/"})
         counts = sum((junit_counts(p) for p in cases.glob("*.xml")), Counts())
         if summary.exists():
             counts.skipped += junit_counts(summary).skipped

@@ -83,6 +83,7 @@ inline Pictures extrapolated(const Pictures& coarse, const Pictures& fine) {
 
 inline scene::SceneDesc path_traced(const CausticCase& c) {
     scene::SceneDesc scene = c.scene;
+    scene.settings.record_clusters = false;
     scene.settings.integrator = scene::IntegratorKind::path_tracing;
     scene.settings.samples = c.path_samples;
     return scene;
@@ -90,6 +91,7 @@ inline scene::SceneDesc path_traced(const CausticCase& c) {
 
 inline scene::SceneDesc with_photons(const CausticCase& c, scene::IntegratorKind kind) {
     scene::SceneDesc scene = c.scene;
+    scene.settings.record_clusters = false;
     scene.settings.integrator = kind;
     scene.settings.samples = c.photon_samples;
     // Photons that bring direct light too must be more for the same noise.
