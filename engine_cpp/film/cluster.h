@@ -11,6 +11,9 @@ namespace cardioid::film {
 inline constexpr int k_layers = 3;  ///< 0: straight from a lamp, 1: scattered once, 2: more often
 inline constexpr int k_max_clusters = 8;
 
+/// Luminances beyond this count as this where they are squared: sums of 2^24 such squares stay finite.
+inline constexpr float k_largest_squared = 1e15f;
+
 /// What one camera path brings to a layer.
 struct LayerSample {
     float radiance[3] = {};  ///< R: added to the pixel

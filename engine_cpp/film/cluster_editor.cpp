@@ -8,9 +8,6 @@
 namespace cardioid::film {
 namespace {
 
-/// Luminances beyond this count as this in ΣY(R)², which would overflow; sums of 2^24 such squares stay finite.
-constexpr float k_largest_squared = 1e15f;
-
 void join(Cluster& sums, const float (&radiance)[3], float y) {
     for (int k = 0; k < 3; ++k) sums.radiance[k] += radiance[k];
     sums.incident += y;

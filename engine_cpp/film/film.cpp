@@ -20,8 +20,6 @@ float total(const float (&c)[3]) { return c[0] + c[1] + c[2]; }
 
 /// Sums of 2^24 samples below this are finite.
 constexpr float k_largest = 1e30f;
-/// Luminances beyond this count as this where they are squared.
-constexpr float k_largest_squared = 1e15f;
 
 /// Small exactly where every value of the sample is, or where large ones cancel out.
 float checksum(const Sample& s) {
