@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cardioid::film {
@@ -23,6 +24,7 @@ struct Frame {
         }
         return nullptr;
     }
+    Pass* find(const std::string& name) { return const_cast<Pass*>(std::as_const(*this).find(name)); }
 };
 
 }  // namespace cardioid::film

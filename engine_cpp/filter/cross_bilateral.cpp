@@ -61,11 +61,8 @@ void filter_cross_bilateral(const KernelRequest& r) {
             const Float inverse = select(inside, Float(1.0f) / max(sums.weight, 1e-30f), Float(0.0f));
             for (int l = 0; l < film::k_layers; ++l) {
                 if (!r.layers[l]) continue;
-                for (int c = 0; c < 3; ++c) {
-                    const Float value = sums.radiance[l][c] * inverse;
-                    // Rows of the result have no padding.
-                    for (int k = 0; k < W && k < left; ++k) r.result[l][c][y * r.stride + x + k] = value[k];
-                }
+                for (int c = 0; c < 3; ++c)
+                    store_row(r.result[l][c] + y * r.stride + x, sums.radiance[l][c] * inverse, left);
             }
         }
     }

@@ -53,11 +53,9 @@ public:
         if (settings_.firefly_density > 0 && film_.has_clusters() && rejection_.bits.empty()) return false;
         if (settings_.filter_method == FilterMethod::none || !film_.has_clusters())
             return each_tile(for_each, k_tile, [&](const film::Region& area) { only_reject(area); });
-        if (settings_.filter_method == FilterMethod::thesis)
-            return pass(for_each, k_thesis_tile, 1) && finish(for_each);
-        if (settings_.filter_method == FilterMethod::cross_bilateral)
-            return pass(for_each, k_tile, 1) && finish(for_each);
-        if (!pass(for_each, k_tile, 1)) return false;
+        const bool thesis = settings_.filter_method == FilterMethod::thesis;
+        if (!pass(for_each, thesis ? k_thesis_tile : k_tile, 1)) return false;
+        if (settings_.filter_method != FilterMethod::clusters) return finish(for_each);
         const float width = k_withheld_width * static_cast<float>(settings_.filter_size);
         if (!spread_withheld(film_, rejection_, picture_, width, for_each, spread_)) return false;
         return pass(for_each, k_tile, k_second_step) && finish(for_each);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weights by geometry at x_d, shared by all methods.
+// What all methods share over lanes: weights by geometry at x_d, and how results are stored.
 #pragma once
 
 #include "filter/kernels.h"
@@ -11,6 +11,11 @@ namespace cardioid::CD_ISA_NS {
 inline constexpr float k_normal_width = 0.3f;
 /// Depths are alike within this share of them, whatever the slope.
 inline constexpr float k_depth_share = 1e-3f;
+
+/// The lanes of a row that lie in the tile (`left` of them and of what follows): rows of results have no padding.
+inline void store_row(float* to, Float value, int left) {
+    for (int k = 0; k < W && k < left; ++k) to[k] = value[k];
+}
 
 /// Squared distance of two feature values, less what the spread of pixel p's own samples explains (pixels at edges hold both
 /// sides, so that they may take from both), over that spread and the tolerance (after Rousselle et al. 2013).

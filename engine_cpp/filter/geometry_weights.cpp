@@ -13,9 +13,8 @@ void geometry_weights(const filter::KernelRequest& r, float* weights) {
                 for (int x = 0; x < t.area.width; x += W) {
                     const int p = t.at(x, y), q = p + dy * t.stride + dx;
                     const Float w = exp(-min(geometry_distance(t, p, q, dx, dy) + spatial, 60.0f));
-                    const Float inside = select(load(t.taken + q) > Float(0.0f), w, Float(0.0f));
-                    const int left = t.area.width - x;
-                    for (int k = 0; k < W && k < left; ++k) out[x + k] = inside[k];
+                    const Mask inside = load(t.taken + q) > Float(0.0f);
+                    store_row(out + x, select(inside, w, Float(0.0f)), t.area.width - x);
                 }
             }
         }

@@ -4,6 +4,7 @@
 #include "filter/reject_kernel.h"
 #include "filter/reject_measure.h"
 #include "filter/reject_rules.h"
+#include "filter/tile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,6 @@ namespace {
 using film::Cluster;
 
 constexpr int k_tile = 4 * film::k_block;
-
-/// Below this D̂ says nothing of a pixel's texture.
-constexpr float k_darkest = 1e-4f;
 
 /// A cluster of the tested pixel.
 struct Candidate {
@@ -105,7 +103,7 @@ void Rejector::survey_pixel(int x, int y, RejectionStats& stats) {
     pixel.samples = film_.samples(x, y);
     if (!rules_.incident) {
         const float detail = film::luminance(film_.features(x, y).detail);
-        pixel.detail = detail > k_darkest ? detail : 0;
+        pixel.detail = detail > k_darkest_detail ? detail : 0;
     }
     for (int layer = 0; layer < film::k_layers; ++layer) {
         const std::span<const Cluster> list = clusters_.view(x, y, layer);

@@ -116,11 +116,6 @@ void find_geometry(const Tile& t, Scratch& m, int dx, int dy, int shift) {
     }
 }
 
-/// Lanes of a row that lie in the tile: rows of results have no padding.
-void store_row(float* to, Float value, int left) {
-    for (int k = 0; k < W && k < left; ++k) to[k] = value[k];
-}
-
 /// D̂: what the first surface adds is exact, what the choice between mirror and glass made noisy is averaged.
 void write_detail(const KernelRequest& r, const Scratch& m) {
     const Tile& t = *r.tile;

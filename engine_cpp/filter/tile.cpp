@@ -47,19 +47,24 @@ Tile::Tile(const film::Film& film, const Rejection& rejection, const film::Regio
             const int px = area.x + x, py = area.y + y;
             if (px < 0 || py < 0 || px >= frame.width || py >= frame.height) continue;
             if (film.samples(px, py) == 0) continue;
-            load_pixel(film, rejection, px, py, at(x, y));
-            if (!filtered) continue;
+            const int i = at(x, y);
+            const film::PixelFeatures features = film.features(px, py);
+            taken[i] = static_cast<float>(film.samples(px, py));
+            load_features(features, i);
+            if (!filtered) {
+                load_noisy_detail(features, i);
+                for (int l = 0; l < film::k_layers; ++l)
+                    load_layer(film.clusters().view(px, py, l), rejection.withheld(px, py, l), l, i);
+                continue;
+            }
             load_filtered(*filtered, static_cast<std::size_t>(py) * frame.width + static_cast<std::size_t>(px),
                           at(x, y));
         }
     }
-    has_noisy_detail &= filtered == nullptr;
     find_gradients();
 }
 
-void Tile::load_pixel(const film::Film& film, const Rejection& rejection, int x, int y, int i) {
-    taken[i] = static_cast<float>(film.samples(x, y));
-    const film::PixelFeatures f = film.features(x, y);
+void Tile::load_features(const film::PixelFeatures& f, int i) {
     float length = 0;
     for (int c = 0; c < 3; ++c) {
         detail[c][i] = f.detail[c];
@@ -69,8 +74,9 @@ void Tile::load_pixel(const film::Film& film, const Rejection& rejection, int x,
     normal_variance[i] = length > 0 ? std::max(0.0f, 1.0f - length) : 0.0f;
     depth[i] = f.depth;
     depth_variance[i] = f.depth_variance;
-    for (int l = 0; l < film::k_layers; ++l)
-        load_layer(film.clusters().view(x, y, l), rejection.withheld(x, y, l), l, i);
+}
+
+void Tile::load_noisy_detail(const film::PixelFeatures& f, int i) {
     Signal& d = signal[k_detail_signal];
     has_noisy_detail |= f.detail_variance > 0;
     const float brightness = film::luminance(f.mirrored_detail);

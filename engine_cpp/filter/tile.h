@@ -46,7 +46,8 @@ public:
     int at(int x, int y) const { return (y + reach) * stride + x + reach; }
 
 private:
-    void load_pixel(const film::Film& film, const Rejection& rejection, int x, int y, int i);
+    void load_features(const film::PixelFeatures& f, int i);
+    void load_noisy_detail(const film::PixelFeatures& f, int i);
     void load_layer(std::span<const film::Cluster> clusters, unsigned withheld, int layer, int i);
     void load_filtered(const Picture& filtered, std::size_t from, int i);
     /// Kept light of a layer and its variance.

@@ -26,13 +26,6 @@ std::int64_t thread_cpu_ns() {
     return std::int64_t{1'000'000'000} * t.tv_sec + t.tv_nsec;
 }
 
-film::Pass* pass_of(film::Frame& frame, const char* name) {
-    for (film::Pass& p : frame.passes) {
-        if (p.name == name) return &p;
-    }
-    return nullptr;
-}
-
 double luminance_of(const film::Pass& pass) {
     double sum = 0;
     for (std::size_t i = 0; i + 2 < pass.data.size(); i += 3) {
@@ -91,7 +84,7 @@ void FilterRun::publish(const filter::Filtered& result, const scene::FilterSetti
 }
 
 void show_raw(const film::Region& region, const film::Region& part, film::Frame& frame) {
-    film::Pass* filtered = pass_of(frame, "Filtered");
+    film::Pass* filtered = frame.find("Filtered");
     if (!filtered) return;
     const std::vector<float>& raw = frame.find("Raw")->data;
     for (int y = part.y; y < part.y + part.height; ++y) {

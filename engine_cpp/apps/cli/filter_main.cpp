@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <iostream>
 
 namespace {
 
@@ -35,10 +34,6 @@ int parse(int argc, char** argv, Options& o) {
     return -1;
 }
 
-void show(const render::Progress& p) {
-    std::fprintf(stderr, "\r%-40s %5.1f %%  %6.1f s", p.message.c_str(), 100 * p.fraction, p.elapsed);
-}
-
 int run(const Options& o) {
     const auto film = std::make_shared<const film::Film>(film::FilmFile::load(o.film));
     scene::FilterSettings settings = film->filter_settings();
@@ -51,14 +46,12 @@ int run(const Options& o) {
     render::FilterJob job(film, settings, o.threads, o.lanes);
     job.start();
     while (!job.wait(0.25)) {
-        if (!o.quiet) show(job.progress());
+        if (!o.quiet) cli::show(job.progress());
     }
     if (!o.quiet) std::fputc('\n', stderr);
     const auto frame = job.frame();
     if (!frame) throw scene::SceneError(job.progress().message);
-    cli::write_picture(*frame, o.output, job.stats());
-    if (!o.stats.empty()) cli::write_text(o.stats, job.stats());
-    if (!o.quiet) std::cout << o.output << '\n';
+    cli::write_results(*frame, o.output, job.stats(), o.stats, o.quiet);
     return 0;
 }
 

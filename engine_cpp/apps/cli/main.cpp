@@ -66,10 +66,7 @@ int run(const Options& o) {
     render::Session session(desc, o.lanes);
     session.start();
     while (!session.wait(0.25)) {
-        const render::Progress p = session.progress();
-        if (!o.quiet)
-            std::fprintf(stderr, "\r%-40s %5.1f %%  %6.1f s", p.message.empty() ? "rendering" : p.message.c_str(),
-                         100 * p.fraction, p.elapsed);
+        if (!o.quiet) cli::show(session.progress());
     }
     if (!o.quiet) std::fputc('\n', stderr);
     const render::Progress p = session.progress();
@@ -77,10 +74,8 @@ int run(const Options& o) {
     if (p.phase == render::Phase::failed) throw scene::SceneError(p.message);
     const auto frame = session.frame();
     if (!frame) throw scene::SceneError("nothing was rendered: the time limit ended before the first tile");
-    cli::write_picture(*frame, o.output, session.stats());
+    cli::write_results(*frame, o.output, session.stats(), o.stats, o.quiet);
     if (!o.film.empty()) film::FilmFile::save(*session.film(), o.film);
-    if (!o.stats.empty()) cli::write_text(o.stats, session.stats());
-    if (!o.quiet) std::cout << o.output << '\n';
     return 0;
 }
 

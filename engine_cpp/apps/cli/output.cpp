@@ -5,6 +5,7 @@
 #include "scene/replace_file.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <span>
 
@@ -33,8 +34,6 @@ void write_layers(const film::Frame& frame, const std::string& path, const std::
     image::write_exr(path, frame.width, frame.height, names, all, {{"cardioid:stats", stats}});
 }
 
-}  // namespace
-
 void write_picture(const film::Frame& frame, const std::string& path, const std::string& stats) {
     const film::Pass& combined = *frame.find("Combined");
     if (path.ends_with(".png")) {
@@ -46,6 +45,20 @@ void write_picture(const film::Frame& frame, const std::string& path, const std:
 
 void write_text(const std::string& path, const std::string& text) {
     scene::replace_file(path, [&](scene::FileWriter& file) { file.write(std::as_bytes(std::span(text))); });
+}
+
+}  // namespace
+
+void show(const render::Progress& p) {
+    std::fprintf(stderr, "\r%-40s %5.1f %%  %6.1f s", p.message.empty() ? "rendering" : p.message.c_str(),
+                 100 * p.fraction, p.elapsed);
+}
+
+void write_results(const film::Frame& frame, const std::string& path, const std::string& stats,
+                   const std::string& stats_path, bool quiet) {
+    write_picture(frame, path, stats);
+    if (!stats_path.empty()) write_text(stats_path, stats);
+    if (!quiet) std::cout << path << '\n';
 }
 
 void assign(scene::Json& json, const std::vector<std::string>& assignments) {

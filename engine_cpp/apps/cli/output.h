@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/frame.h"
+#include "render/session.h"
 #include "scene/error.h"
 #include "scene/json.h"
 
@@ -14,10 +15,13 @@
 
 namespace cardioid::cli {
 
-/// By the extension: .png has the Combined pass as sRGB, anything else is an EXR with all passes and `stats` in its header.
-void write_picture(const film::Frame& frame, const std::string& path, const std::string& stats);
+/// One line that is written over again.
+void show(const render::Progress& progress);
 
-void write_text(const std::string& path, const std::string& text);
+/// What both programs leave: the picture (.png has the Combined pass as sRGB, anything else is an EXR with all passes and `stats`
+/// in its header), `stats` as a file of its own unless `stats_path` is empty, and the picture's name on the terminal.
+void write_results(const film::Frame& frame, const std::string& path, const std::string& stats,
+                   const std::string& stats_path, bool quiet);
 
 /// Changes keys of `json` by "name=value": value as JSON, or else as text.
 void assign(scene::Json& json, const std::vector<std::string>& assignments);

@@ -40,16 +40,6 @@ std::unique_ptr<render::FilterJob> make_job(const FilmPointer& film, const py::d
     return std::make_unique<render::FilterJob>(film, settings_of(*film, given), threads);
 }
 
-py::dict progress_dict(const render::FilterJob& job) {
-    const render::Progress p = job.progress();
-    py::dict d;
-    d["phase"] = render::phase_name(p.phase);
-    d["fraction"] = p.fraction;
-    d["message"] = p.message;
-    d["elapsed"] = p.elapsed;
-    return d;
-}
-
 }  // namespace
 
 void bind_filter(py::module_& m) {
@@ -73,7 +63,7 @@ void bind_filter(py::module_& m) {
         .def("start", &render::FilterJob::start, no_gil)
         .def("wait", &render::FilterJob::wait, py::arg("seconds"), no_gil, "True when the job has ended.")
         .def("cancel", &render::FilterJob::cancel, no_gil)
-        .def("progress", &progress_dict)
+        .def("progress", [](const render::FilterJob& job) { return stage_dict(job.progress()); })
         .def("frame", [](const render::FilterJob& j) { return std::const_pointer_cast<film::Frame>(j.frame()); })
         .def("stats", [](const render::FilterJob& j) { return from_json(nlohmann::json::parse(j.stats())); });
 }

@@ -30,15 +30,11 @@ std::unique_ptr<render::Session> make_session(PyScene& s) {
 
 py::dict progress_dict(const render::Session& session) {
     const render::Progress p = session.progress();
-    py::dict d;
-    d["phase"] = render::phase_name(p.phase);
-    d["fraction"] = p.fraction;
+    py::dict d = stage_dict(p);
     d["samples"] = p.samples;
     d["total_samples"] = p.total_samples;
-    d["elapsed"] = p.elapsed;
     d["remaining"] = p.remaining;
     d["memory_bytes"] = p.memory_bytes;
-    d["message"] = p.message;
     d["revision"] = p.revision;
     d["passes"] = p.passes;
     d["photons_emitted"] = p.photons_emitted;
@@ -47,6 +43,15 @@ py::dict progress_dict(const render::Session& session) {
 }
 
 }  // namespace
+
+py::dict stage_dict(const render::Progress& p) {
+    py::dict d;
+    d["phase"] = render::phase_name(p.phase);
+    d["fraction"] = p.fraction;
+    d["message"] = p.message;
+    d["elapsed"] = p.elapsed;
+    return d;
+}
 
 void bind_session(py::module_& m) {
     py::class_<film::Frame, std::shared_ptr<film::Frame>>(

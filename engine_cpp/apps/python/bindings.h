@@ -2,6 +2,7 @@
 // One bind_*.cpp for each class of the module.
 #pragma once
 
+#include "render/session.h"
 #include "scene/scene_desc.h"
 #include "scene/validate.h"
 
@@ -42,6 +43,9 @@ private:
     std::shared_ptr<scene::SceneDesc> desc_ = std::make_shared<scene::SceneDesc>();
     Validated validated_;
 };
+
+/// phase, fraction, message and elapsed, as sessions and filter jobs tell them.
+py::dict stage_dict(const render::Progress& progress);
 
 void bind_scene(py::module_& m);
 void bind_session(py::module_& m);
