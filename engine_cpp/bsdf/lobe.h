@@ -19,6 +19,11 @@ enum class LobeKind : std::uint8_t {
     burley,     ///< diffuse part of 3.4's Principled (Disney diffuse), `roughness` is Principled's
     velvet,     ///< 3.4's Velvet BSDF, `roughness` is its sigma
     sheen_v1,   ///< sheen of 3.4's Principled
+    /// Light that enters here and leaves elsewhere (Cycles' BSSRDF). f0: albedo (colour), f90: radius per channel in scene
+    /// units, eta: index of refraction, roughness: anisotropy of the walk, alpha_x: roughness² of the boundary; method:
+    /// `preserve_energy` false random walk, true Burley. `weight` contains the albedo, as in Cycles. eval is 0: path/ walks;
+    /// the exit is Lambertian. Photons take it for a D lobe.
+    subsurface,
 };
 
 enum class Fresnel : std::uint8_t {
@@ -54,6 +59,9 @@ struct alignas(64) Lobe {
 constexpr bool is_diffuse_kind(LobeKind kind) {
     return kind != LobeKind::ggx_reflection && kind != LobeKind::ggx_refraction && kind != LobeKind::ggx_glass;
 }
+
+/// Light leaves at another point than it entered.
+constexpr bool is_subsurface(LobeKind kind) { return kind == LobeKind::subsurface; }
 
 constexpr bool sends_light_through(LobeKind kind) {
     return kind == LobeKind::translucent || kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass;

@@ -6,7 +6,7 @@
 #include "nodes/instructions.h"
 #include "nodes/program.h"
 #include "nodes/warnings.h"
-#include "scene/graph_desc.h"
+#include "scene/scene_desc.h"
 
 #include <memory>
 #include <string>
@@ -19,14 +19,31 @@ enum class GraphKind : std::uint8_t { material, world, light };
 /// Reserved attribute names: the mesh's render-active UV map and colour attribute.
 inline constexpr const char* k_active_uv = "#active_uv";
 inline constexpr const char* k_active_color = "#active_color";
+/// Attributes that trace/ computes when a program names them: 1 channel per triangle, random in [0,1) by connected part;
+/// 1 channel per vertex, Geometry ▸ Pointiness.
+inline constexpr const char* k_random_island = "#random_island";
+inline constexpr const char* k_pointiness = "#pointiness";
+/// Prefix: "#tangent:UVMAP" is written by the host, 4 channels per corner: MikkTSpace tangent in object space and the sign of the
+/// bitangent.
+inline constexpr const char* k_tangent_prefix = "#tangent:";
+/// Hair that the host turned into triangles: 3 channels per point, direction along the strand in object space; and Hair Info's
+/// values, 1 channel each.
+inline constexpr const char* k_curve_tangent = "#curve_tangent";
+inline constexpr const char* k_curve_intercept = "#curve_intercept";
+inline constexpr const char* k_curve_length = "#curve_length";
+inline constexpr const char* k_curve_thickness = "#curve_thickness";
+inline constexpr const char* k_curve_random = "#curve_random";
 
 struct CompileContext {
     std::string name;  ///< of the material, world or lamp, for messages
     GraphKind kind = GraphKind::material;
-    std::vector<std::string>* attribute_names = nullptr;  ///< name id = index; names that are missing are appended
-    const image::ImageStore* images = nullptr;            ///< may be null: images are then magenta
-    Float3 fallback_color{0.8f, 0.8f, 0.8f};  ///< an empty graph is Diffuse, Background or Emission of this colour
-    bool optimise = true;                     ///< false: no folding, merging or dead-code removal (tests)
+    std::vector<std::string>* attribute_names = nullptr;       ///< name id = index; names that are missing are appended
+    std::vector<std::string>* instance_value_names = nullptr;  ///< the same for scene::InstanceValueDesc
+    /// Material: whether the displacement output turns normals (bump, both) or is left to Purpose::displacement alone.
+    scene::DisplacementMethod displacement_method = scene::DisplacementMethod::bump;
+    const image::ImageStore* images = nullptr;  ///< may be null: images are then magenta
+    Float3 fallback_color{0.8f, 0.8f, 0.8f};    ///< an empty graph is Diffuse, Background or Emission of this colour
+    bool optimise = true;                       ///< false: no folding, merging or dead-code removal (tests)
 };
 
 struct CompiledGraph {

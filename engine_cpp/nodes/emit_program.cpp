@@ -12,9 +12,9 @@ namespace {
 
 bool wanted(Op op, Purpose purpose) {
     switch (op) {
-        case Op::emission: return purpose != Purpose::transparency;
+        case Op::emission: return purpose == Purpose::surface || purpose == Purpose::emission;
         case Op::transparent:
-        case Op::holdout: return purpose != Purpose::emission;
+        case Op::holdout: return purpose == Purpose::surface || purpose == Purpose::transparency;
         default: return purpose == Purpose::surface;
     }
 }

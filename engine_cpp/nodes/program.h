@@ -21,8 +21,10 @@ enum class Purpose : std::uint8_t {
     surface,       ///< lobes, emission and transparency
     emission,      ///< emission alone (light sampling, world, lamps)
     transparency,  ///< transparency alone (shadow rays)
+    volume,        ///< the medium inside the surface, or of the world
+    displacement,  ///< how far a vertex moves
 };
-inline constexpr int k_purposes = 3;
+inline constexpr int k_purposes = 5;
 
 struct Program;  // instruction stream, defined in nodes/instructions.h
 
@@ -43,6 +45,11 @@ struct ProgramInfo {
     bool transparency_needs_light_path = false;
     bool needs_triangle_frame = false;  ///< reads barycentrics, dp_du, dp_dv, triangle or mesh
     bool needs_instance = false;        ///< reads InstanceInfo
+    bool has_volume = false;
+    bool constant_volume = false;   ///< the same medium everywhere: its program may be run once, without a position
+    bool has_displacement = false;  ///< something is linked to the displacement output
+    bool has_subsurface = false;    ///< some lobe is_subsurface
+    bool sends_rays = false;        ///< Bevel, Ambient Occlusion, Raycast: reads ShadingChunk::rays and random_seed
     int lobes = 0;
     float least_alpha =
         1e30f;  ///< of the glossy lobes: none can be smoother; 0 where that is not known, 1e30 without any

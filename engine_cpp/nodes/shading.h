@@ -41,6 +41,13 @@ struct InstanceInfo {
     float dupli_uv[2] = {0, 0};
 };
 
+/// What nodes read by name from instances (scene::InstanceValueDesc): rows of four floats, [instance * names + name id]; a missing
+/// one is 0, 0, 0, 0.
+struct InstanceValues {
+    const float* rows = nullptr;
+    int names = 0;
+};
+
 struct MeshInfo {
     std::uint32_t first_triangle = 0;  ///< into GeometryTables::triangles
     std::uint32_t first_vertex = 0;
@@ -56,13 +63,32 @@ struct GeometryTables {
     int attribute_names = 0;
     const InstanceInfo* instances = nullptr;
     const MeshInfo* meshes = nullptr;
+    InstanceValues instance_values;
     Affine camera_to_world, world_to_camera;  ///< camera looks along -z
     std::array<float, 4> view_plane{};        ///< left, right, bottom, top at distance 1 (Window coordinates)
     bool orthographic = false;
 };
 
+/// Rays that nodes send (Bevel, Ambient Occlusion, Raycast), for the lanes of a chunk.
+struct alignas(64) NodeRays {
+    Row origin[3], direction[3], t_min, t_max;  ///< t_max < t_min: no ray in this lane
+    std::int32_t only[k_chunk];                 ///< instance that alone can be hit; -1: all
+};
+struct alignas(64) NodeHits {
+    Row t;                           ///< 1e30: nothing
+    Row normal[3];                   ///< smooth, unit, world, on the side that the mesh's own normals have
+    Row normal_geometric[3];         ///< the same, flat
+    std::int32_t instance[k_chunk];  ///< -1: nothing
+};
+/// Given by who owns the traceable scene; `lanes` is n rounded up to the kernel's width.
+struct RayService {
+    const void* scene = nullptr;
+    void (*closest)(const void* scene, const NodeRays& rays, NodeHits& hits, int lanes) = nullptr;
+};
+
 struct alignas(64) ShadingChunk {
-    int n = 0;  ///< 1…64
+    int n = 0;                         ///< 1…64
+    const RayService* rays = nullptr;  ///< null: nothing is hit
     const GeometryTables* geometry = nullptr;
     alignas(64) Row position[3];       ///< world; for the world shader: the direction
     Row normal_geometric[3];           ///< unit, world, on wo's side
@@ -79,7 +105,27 @@ struct alignas(64) ShadingChunk {
     std::int32_t instance[k_chunk];  ///< -1 for lamps and the world
     std::int32_t material_pass_index = 0;
     std::uint32_t ray_flags[k_chunk];
+    std::int32_t random_seed[k_chunk];  ///< set for programs that send rays: another one for each vertex of each path
     Row ray_depth, diffuse_depth, glossy_depth, transmission_depth, transparent_depth;
+};
+
+/// Phase functions of a medium, by Blender's Volume Scatter node.
+enum class PhaseKind : std::uint8_t { henyey_greenstein, rayleigh, fournier_forand, draine, mie };
+
+/// One scattering part of a medium.
+struct alignas(64) MediumPhase {
+    PhaseKind kind = PhaseKind::henyey_greenstein;
+    Row scatter[3];    ///< coefficient per scene unit
+    Row parameter[3];  ///< henyey_greenstein: g; draine: g, alpha; fournier_forand: backscatter, index; mie: diameter
+};
+inline constexpr int k_max_phases = 4;
+
+/// The medium at the points of a chunk (Purpose::volume).
+struct alignas(64) VolumeOutput {
+    int phases = 0;
+    Row absorption[3];  ///< coefficient per scene unit, without scattering
+    Row emission[3];    ///< radiance per scene unit
+    MediumPhase phase[k_max_phases];
 };
 
 struct alignas(64) SurfaceOutput {
@@ -89,6 +135,8 @@ struct alignas(64) SurfaceOutput {
     Row emission[3];      ///< radiance toward wo; world and lamps: the colour × strength
     Row transparency[3];  ///< weight of Transparent BSDFs: light that passes straight through
     Row holdout;          ///< weight of Holdout
+    VolumeOutput* volume = nullptr;  ///< Purpose::volume writes it; given by the caller
+    Row displacement[3];             ///< Purpose::displacement: world-space offset
 };
 
 }  // namespace cardioid::nodes

@@ -31,6 +31,10 @@ struct EnumNames<AlphaMode> {
     static constexpr std::string_view names[] = {"straight", "premultiplied", "channel_packed", "none"};
 };
 template <>
+struct EnumNames<DisplacementMethod> {
+    static constexpr std::string_view names[] = {"bump", "displacement", "both"};
+};
+template <>
 struct EnumNames<LightKind> {
     static constexpr std::string_view names[] = {"point", "spot", "sun", "area"};
 };
@@ -75,6 +79,8 @@ inline constexpr std::string_view k_kind<AttributeDesc> = "attribute";
 template <>
 inline constexpr std::string_view k_kind<MeshDesc> = "mesh";
 template <>
+inline constexpr std::string_view k_kind<InstanceValueDesc> = "instance value";
+template <>
 inline constexpr std::string_view k_kind<InstanceDesc> = "instance";
 template <>
 inline constexpr std::string_view k_kind<GroupDesc> = "group";
@@ -116,10 +122,16 @@ void fields(V& v, Of<MeshDesc> auto& d) {
 }
 
 template <class V>
+void fields(V& v, Of<InstanceValueDesc> auto& d) {
+    v("name", d.name), v("value", d.value);
+}
+
+template <class V>
 void fields(V& v, Of<InstanceDesc> auto& d) {
     v("name", d.name), v("mesh", d.mesh), v("group", d.group), v("transform", d.transform), v("materials", d.materials);
     v("visibility", d.visibility), v("holdout", d.holdout), v("pass_index", d.pass_index), v("random", d.random);
     v("color", d.color), v("dupli_generated", d.dupli_generated), v("dupli_uv", d.dupli_uv);
+    v("values", d.values);
 }
 
 template <class V>
@@ -149,6 +161,7 @@ void fields(V& v, Of<MaterialDesc> auto& d) {
     v("name", d.name), v("graph", d.graph), v("viewport_color", d.viewport_color), v("metallic", d.metallic);
     v("roughness", d.roughness), v("use_transparent_shadow", d.use_transparent_shadow);
     v("sample_emission", d.sample_emission), v("pass_index", d.pass_index);
+    v("displacement_method", d.displacement_method);
 }
 
 template <class V>
@@ -190,7 +203,8 @@ void fields(V& v, Of<Settings> auto& d) {
     v("samples", d.samples), v("first_sample", d.first_sample), v("time_limit", d.time_limit), v("threads", d.threads);
     v("seed", d.seed), v("max_bounces", d.max_bounces), v("max_diffuse_bounces", d.max_diffuse_bounces);
     v("max_glossy_bounces", d.max_glossy_bounces), v("max_transmission_bounces", d.max_transmission_bounces);
-    v("max_transparent_bounces", d.max_transparent_bounces), v("clamp_direct", d.clamp_direct);
+    v("max_transparent_bounces", d.max_transparent_bounces);
+    v("max_volume_bounces", d.max_volume_bounces), v("clamp_direct", d.clamp_direct);
     v("clamp_indirect", d.clamp_indirect), v("reflective_caustics", d.reflective_caustics);
     v("refractive_caustics", d.refractive_caustics), v("filter_glossy", d.filter_glossy);
     v("caustic_roughness", d.caustic_roughness), v("indirect_caustics", d.indirect_caustics);

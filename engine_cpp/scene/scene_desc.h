@@ -48,6 +48,14 @@ struct MeshDesc {
     Float3 generated_min{0, 0, 0}, generated_size{1, 1, 1};  ///< texture space box for Generated coordinates
 };
 
+/// A number, vector or colour that nodes read by name from an instance: "object:NAME" and "instancer:NAME" for Attribute nodes of
+/// those types, "particle:index|random|age|lifetime|size|location|velocity|angular_velocity" for Particle Info. `value` is as
+/// Blender's attribute gives it: a number is (v, v, v, 1), a vector (x, y, z, 1).
+struct InstanceValueDesc {
+    std::string name;
+    std::array<float, 4> value{0, 0, 0, 1};
+};
+
 /// A placed mesh, or a placed group (then `mesh` is -1).
 struct InstanceDesc {
     std::string name;  ///< the object's name, used in messages
@@ -62,6 +70,7 @@ struct InstanceDesc {
     std::array<float, 4> color{1, 1, 1, 1};  ///< Object Info ▸ Color
     Float3 dupli_generated{0, 0, 0};
     std::array<float, 2> dupli_uv{0, 0};
+    std::vector<InstanceValueDesc> values;  ///< those that some material reads
 };
 
 /// A collection that is placed as a whole; groups may contain groups, loops are an error.
@@ -84,6 +93,10 @@ struct ImageDesc {
     AlphaMode alpha_mode = AlphaMode::straight;
 };
 
+/// What the displacement output does: turns shading normals, moves the vertices, or moves them and turns normals by what the mesh
+/// is too coarse for.
+enum class DisplacementMethod : std::uint8_t { bump, displacement, both };
+
 struct MaterialDesc {
     std::string name;
     GraphDesc graph;                          ///< empty: the default grey of Blender
@@ -92,6 +105,7 @@ struct MaterialDesc {
     bool use_transparent_shadow = true;
     bool sample_emission = true;  ///< false: emission is found by hits only
     int pass_index = 0;
+    DisplacementMethod displacement_method = DisplacementMethod::bump;
 };
 
 enum class LightKind : std::uint8_t { point, spot, sun, area };
@@ -175,6 +189,7 @@ struct Settings {
     int max_bounces = 12;
     int max_diffuse_bounces = 4, max_glossy_bounces = 4, max_transmission_bounces = 12;
     int max_transparent_bounces = 8;
+    int max_volume_bounces = 0;                  ///< scatterings in media; 0: each path may scatter once, as in Cycles
     float clamp_direct = 0, clamp_indirect = 0;  ///< 0: off
     bool reflective_caustics = true, refractive_caustics = true;
     float filter_glossy = 0;

@@ -55,6 +55,7 @@ void repair_settings(Settings& s, ProblemList& problems) {
     repair(problems, who, "max_diffuse_bounces", s.max_diffuse_bounces, 0, k_most_bounces);
     repair(problems, who, "max_glossy_bounces", s.max_glossy_bounces, 0, k_most_bounces);
     repair(problems, who, "max_transmission_bounces", s.max_transmission_bounces, 0, k_most_bounces);
+    repair(problems, who, "max_volume_bounces", s.max_volume_bounces, 0, k_most_bounces);
     repair(problems, who, "max_transparent_bounces", s.max_transparent_bounces, 0, k_most_transparent_bounces);
     repair(problems, who, "clamp_direct", s.clamp_direct, 0, k_large, 0);
     repair(problems, who, "clamp_indirect", s.clamp_indirect, 0, k_large, 0);

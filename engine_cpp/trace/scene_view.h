@@ -27,6 +27,8 @@ struct MaterialView {
     const nodes::Program* surface = nullptr;
     const nodes::Program* emission = nullptr;
     const nodes::Program* transparency = nullptr;
+    const nodes::Program* volume = nullptr;        ///< null: no medium
+    const nodes::Program* displacement = nullptr;  ///< null: vertices stay
     nodes::ProgramInfo info;
     std::int32_t pass_index = 0;
     bool emission_sampled = false;  ///< its triangles are in the light table
@@ -71,6 +73,7 @@ struct SceneView {
     bool has_casters = false;         ///< some lobe may be class S: there can be caustics
     bool is_limited = false;          ///< lights_are_limited, or some object is hidden from a kind of lobe
     bool has_world = false;           ///< something shines from outside
+    bool has_volumes = false;         ///< some material of a placed mesh, or the world, has a medium
     std::uint8_t world_visibility = scene::visible_all;
     int world_max_bounces = 1024;
     Float3 world_constant{0, 0, 0};  ///< its radiance when its program is constant

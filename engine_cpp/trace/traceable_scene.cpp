@@ -54,7 +54,7 @@ struct TraceableScene::Impl {
     SceneView view;
     BuildStats stats;
     nodes::Warnings warnings;
-    std::vector<std::string> attribute_names;
+    std::vector<std::string> attribute_names, instance_value_names;
     std::unique_ptr<image::ImageStore> images;
     std::vector<nodes::CompiledGraph> graphs;  // materials, default grey, lamps, world: SceneView::materials' ids
     std::vector<bool> use_transparent_shadow;
@@ -134,6 +134,7 @@ void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
         context.name = name;
         context.kind = kind;
         context.attribute_names = &attribute_names;
+        context.instance_value_names = &instance_value_names;
         context.images = images.get();
         context.fallback_color = fallback;
         graphs.push_back(nodes::compile(graph, context, warnings));
@@ -157,6 +158,8 @@ void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
         m.emission = &graphs[i].of(nodes::Purpose::emission);
         m.transparency = &graphs[i].of(nodes::Purpose::transparency);
         m.info = graphs[i].info;
+        if (m.info.has_volume) m.volume = &graphs[i].of(nodes::Purpose::volume);
+        if (m.info.has_displacement) m.displacement = &graphs[i].of(nodes::Purpose::displacement);
         if (i < desc.materials.size()) {
             m.pass_index = desc.materials[i].pass_index;
             m.emission_sampled = desc.materials[i].sample_emission && m.info.has_emission;
