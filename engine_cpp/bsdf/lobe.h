@@ -20,9 +20,12 @@ enum class LobeKind : std::uint8_t {
     velvet,     ///< 3.4's Velvet BSDF, `roughness` is its sigma
     sheen_v1,   ///< sheen of 3.4's Principled
     /// Light that enters here and leaves elsewhere (Cycles' BSSRDF). f0: albedo (colour), f90: radius per channel in scene
-    /// units, eta: index of refraction, roughness: anisotropy of the walk, alpha_x: roughness² of the boundary; method:
-    /// `preserve_energy` false random walk, true Burley. `weight` contains the albedo, as in Cycles. eval is 0: path/ walks;
-    /// the exit is Lambertian. Photons take it for a D lobe.
+    /// units as Cycles' bssrdf_setup leaves it (walk: mean free path; Burley: d of the profile), eta: index of refraction,
+    /// roughness: anisotropy of the walk, alpha_x: roughness² of the boundary; method: `preserve_energy` false random walk,
+    /// true Burley. How a walk enters is told by `fresnel`: none: cosine-distributed (Blender 3.4), dielectric: refracted,
+    /// schlick: each by half (Random Walk (Skin)). alpha_y 1: the exit has Principled v1's Fresnel (Blender 3.4), else 0.
+    /// `weight` contains the albedo, as in Cycles. eval is 0: path/ walks, takes channels whose radius is under 1e-8 for
+    /// diffuse, and paths after a diffuse bounce too. Photons take it for a D lobe.
     subsurface,
 };
 
