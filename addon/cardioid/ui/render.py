@@ -93,7 +93,7 @@ class CARDIOID_RENDER_PT_bounces(CardioidPanel, bpy.types.Panel):
         settings = context.scene.cardioid
         setting(layout, settings, "max_bounces")
         column = layout.column(align=True)
-        for name in ("diffuse_bounces", "glossy_bounces", "transmission_bounces"):
+        for name in ("diffuse_bounces", "glossy_bounces", "transmission_bounces", "volume_bounces"):
             setting(column, settings, name)
         setting(layout, settings, "transparent_bounces")
 

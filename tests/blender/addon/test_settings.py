@@ -27,6 +27,7 @@ k_followed = {
     "diffuse_bounces": ("diffuse_bounces", 6, 2),
     "glossy_bounces": ("glossy_bounces", 9, 3),
     "transmission_bounces": ("transmission_bounces", 20, 4),
+    "volume_bounces": ("volume_bounces", 3, 2),
     "transparent_bounces": ("transparent_max_bounces", 33, 5),
     "clamp_direct": ("sample_clamp_direct", 4.0, 2.0),
     "clamp_indirect": ("sample_clamp_indirect", 3.0, 0.0),
