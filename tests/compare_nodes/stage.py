@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tiles before the camera: one mesh per stage, one object per case, and the settings that make samples agree.
+
+A tile is a square of one metre and PIXELS² pixels; each pixel has a face of its own. The camera looks down at the centres
+of the pixels. Stages: `flat` lies in the plane; `facets` has faces turned as on a dome, `back` the same seen from behind;
+`dome` is one smooth surface; `placed` is a dome whose object is turned and stretched; `through` lies behind a transparent
+plane, `glass` behind a refracting one without effect, `mirror` stands and is seen in a mirror.
+"""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+PIXELS = 32
+STEP = 1.0 / PIXELS
+FILTER = 0.01
+NUDGE = 2e-6
+"""The share by which swept values are moved to see how firmly a pixel's value stands."""
+PLACE = Matrix.Rotation(0.4, 4, "Z") @ Matrix.Rotation(0.3, 4, "X") @ Matrix.Diagonal((1.5, 0.8, 1.2, 1.0))
+KINDS = ("flat", "facets", "back", "dome", "placed", "through", "glass", "mirror")
+
+
+def values() -> dict[str, np.ndarray]:
+    """The UV layers that do not change within a face: (faces, 2), faces row by row from the bottom."""
+    row, column = np.divmod(np.arange(PIXELS * PIXELS), PIXELS)
+    unit = np.stack([column, row], 1) / (PIXELS - 1)
+    mixed = np.stack([(column * 19 + row * 7) % PIXELS, (column * 5 + row * 13 + 3) % PIXELS], 1) / (PIXELS - 1)
+
+    def wide(x: np.ndarray) -> np.ndarray:
+        y = 5.0 * x - 2.0
+        return np.where(np.abs(y) < 2.5 / (PIXELS - 1), 0.0, y)
+
+    return {"UVMap": unit, "Wide": wide(unit), "Mixed": wide(mixed), "MixedUnit": mixed}
+
+
+def faces_of(kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of every pixel's face, (faces, 4, 3), and Smooth's UVs, (faces, 4, 2)."""
+    row, column = np.divmod(np.arange(PIXELS * PIXELS), PIXELS)
+    x = (column[:, None] + np.array([0, 1, 1, 0])) * STEP
+    y = (row[:, None] + np.array([0, 0, 1, 1])) * STEP
+    z = np.zeros_like(x)
+    smooth = np.stack([x, y], -1)
+    if kind in ("facets", "back"):
+        nx, ny = 1.9 * ((column + 0.5) * STEP - 0.5), 1.8 * ((row + 0.5) * STEP - 0.47)
+        length = np.maximum(np.hypot(nx, ny), 1e-9)
+        sine = np.minimum(length, 1.0) * 0.985
+        slope = sine / np.sqrt(1.0 - sine**2) / length
+        z = -slope[:, None] * (
+            nx[:, None] * (x - x.mean(1, keepdims=True)) + ny[:, None] * (y - y.mean(1, keepdims=True))
+        )
+    elif kind in ("dome", "placed"):
+        z = 0.6 * np.sqrt(1.02 - 1.7 * (x - 0.5) ** 2 - 1.4 * (y - 0.45) ** 2) + 0.1 * np.sin(5 * x + 3 * y)
+    elif kind == "mirror":  # the wall that the mirror z = x shows: straight up at x = 0
+        x, z = np.zeros_like(x), x
+    corners = np.stack([x, y, z], -1)
+    return corners, smooth
+
+
+def mesh(kind: str) -> bpy.types.Mesh:
+    corners, smooth = faces_of(kind)
+    joined = kind in ("dome", "placed")
+    if joined:
+        points, index = np.unique(corners.reshape(-1, 3).round(9), axis=0, return_inverse=True)
+        index = index.reshape(-1, 4)
+    else:
+        points, index = corners.reshape(-1, 3), np.arange(corners.shape[0] * 4).reshape(-1, 4)
+    if kind in ("back", "mirror"):  # the mirror's wall faces the mirror
+        index, smooth = index[:, ::-1], smooth[:, ::-1]
+    if kind == "placed":
+        inverse = np.array(PLACE.inverted())
+        points = points @ inverse[:3, :3].T
+    points, polygons = list(map(tuple, points)), [tuple(map(int, f)) for f in index]
+    cover = {"through": 0.5, "glass": 0.5, "mirror": None}
+    if kind in cover:
+        height = cover[kind]
+        low, high = (0.0, 1.0) if height is None else (height, height)
+        first = len(points)
+        points += [(0, 0, low), (1, 0, high), (1, 1, high), (0, 1, low)]
+        polygons.append((first, first + 1, first + 2, first + 3))
+    data = bpy.data.meshes.new(kind)
+    data.from_pydata(points, [], polygons)
+    count = PIXELS * PIXELS
+    if joined:
+        data.polygons.foreach_set("use_smooth", [True] * len(polygons))
+    if len(polygons) > count:
+        data.polygons[count].material_index = 1
+    _attributes(data, smooth, count)
+    data.update()
+    return data
+
+
+def _attributes(data: bpy.types.Mesh, smooth: np.ndarray, count: int) -> None:
+    for name in values():
+        data.uv_layers.new(name=name)
+    layer = data.uv_layers.new(name="Smooth")
+    padded = np.zeros((len(data.loops), 2))
+    padded[: count * 4] = smooth.reshape(-1, 2)
+    layer.data.foreach_set("uv", padded.ravel())
+    nudge(data, 0.0)
+    data.uv_layers.active = data.uv_layers["UVMap"]
+    data.uv_layers["UVMap"].active_render = True
+    rng = np.random.default_rng(7)
+    faces = len(data.polygons)
+    for name, kind, domain in (
+        ("Number", "FLOAT", "POINT"), ("Whole", "INT", "FACE"), ("Flag", "BOOLEAN", "FACE"),
+        ("Place", "FLOAT_VECTOR", "POINT"), ("Paint", "FLOAT_COLOR", "CORNER"), ("Bytes", "BYTE_COLOR", "CORNER"),
+        ("Flat", "FLOAT2", "CORNER"),
+    ):  # fmt: skip
+        try:
+            attribute = data.attributes.new(name, kind, domain)
+        except TypeError:
+            continue
+        corners = {"POINT": len(data.vertices), "CORNER": len(data.loops), "FACE": faces}[domain]
+        _fill(attribute, kind, rng, corners, data)
+
+
+def _fill(attribute, kind: str, rng, count: int, data: bpy.types.Mesh) -> None:
+    """Values that are constant within a face where faces do not share points."""
+    per_face = np.zeros(count, np.int64)
+    if count == len(data.polygons):
+        per_face = np.arange(count)
+    elif count == len(data.loops):
+        per_face = np.repeat(np.arange(len(data.polygons)), 4)
+    else:
+        for polygon in data.polygons:
+            for vertex in polygon.vertices:
+                per_face[vertex] = polygon.index
+    table = rng.random((len(data.polygons), 4)).astype(np.float32)
+    table = table[per_face]
+    if kind == "FLOAT":
+        attribute.data.foreach_set("value", table[:, 0] * 4 - 2)
+    elif kind == "INT":
+        attribute.data.foreach_set("value", (table[:, 0] * 100).astype(np.int32))
+    elif kind == "BOOLEAN":
+        attribute.data.foreach_set("value", table[:, 0] > 0.5)
+    elif kind in ("FLOAT_VECTOR", "FLOAT2"):
+        size = 3 if kind == "FLOAT_VECTOR" else 2
+        attribute.data.foreach_set("vector", np.ascontiguousarray(table[:, :size] * 4 - 2).ravel())
+    else:
+        attribute.data.foreach_set("color", table.ravel())
+
+
+def nudge(data: bpy.types.Mesh, amount: float) -> None:
+    """Writes the swept layers, each moved by another share of about `amount`: what is 0 stays 0, what is equal differs."""
+    for number, (name, plain) in enumerate(values().items()):
+        moved = plain * (1.0 + amount * np.array([1.0 - 0.2 * number, -0.9 + 0.2 * number]))
+        corners = np.zeros((len(data.loops), 2), np.float32)
+        corners[: len(plain) * 4] = np.repeat(moved, 4, axis=0)
+        data.uv_layers[name].data.foreach_set("uv", corners.ravel())
+    data.update()
+
+
+def camera(columns: int, rows: int) -> None:
+    scene = bpy.context.scene
+    data = bpy.data.cameras.new("Camera")
+    data.type, data.sensor_fit, data.ortho_scale = "ORTHO", "HORIZONTAL", columns
+    eye = bpy.data.objects.new("Camera", data)
+    eye.location = (columns / 2, rows / 2, 10.0)
+    scene.collection.objects.link(eye)
+    scene.camera = eye
+    scene.render.resolution_x, scene.render.resolution_y = columns * PIXELS, rows * PIXELS
+
+
+def cover_material(kind: str) -> bpy.types.Material:
+    material = bpy.data.materials.new("cover " + kind)
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    glossy = "ShaderNodeBsdfGlossy" if hasattr(bpy.types, "ShaderNodeBsdfGlossy") else "ShaderNodeBsdfAnisotropic"
+    node = tree.nodes.new(
+        {"through": "ShaderNodeBsdfTransparent", "glass": "ShaderNodeBsdfRefraction", "mirror": glossy}[kind]
+    )
+    node.inputs["Color"].default_value = (1, 1, 1, 1)
+    if kind != "through":
+        node.inputs["Roughness"].default_value = 0.0
+    if kind == "glass":
+        node.inputs["IOR"].default_value = 1.0
+    if kind == "mirror" and hasattr(node, "distribution"):
+        node.distribution = "GGX"
+    tree.links.new(node.outputs[0], tree.nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+    return material
+
+
+def place(name: str, kind: str, material: bpy.types.Material, column: int, row: int, meshes: dict) -> bpy.types.Object:
+    """The tile's object; `meshes` keeps what tiles share."""
+    if kind not in meshes:
+        meshes[kind] = mesh(kind)
+        if kind in ("through", "glass", "mirror"):
+            meshes[kind, "cover"] = cover_material(kind)
+    data = meshes[kind]
+    item = bpy.data.objects.new(name, data)
+    while len(data.materials) < (2 if (kind, "cover") in meshes else 1):
+        data.materials.append(None)
+    item.material_slots[0].link = "OBJECT"
+    item.material_slots[0].material = material
+    if (kind, "cover") in meshes:
+        data.materials[1] = meshes[kind, "cover"]
+    item.matrix_world = Matrix.Translation(Vector((column, row, 0))) @ (PLACE if kind == "placed" else Matrix())
+    item.pass_index, item.color = 7, (0.2, 0.5, 0.9, 0.7)
+    bpy.context.scene.collection.objects.link(item)
+    return item
+
+
+def grid(count: int) -> tuple[int, int]:
+    columns = max(1, math.ceil(math.sqrt(count)))
+    return columns, -(-count // columns)
