@@ -33,9 +33,10 @@ _AFFINE = numbers_of(12)
 _COLOR = numbers_of(3)
 INSTANCE = {"name": TEXT, "mesh": WHOLE, "group": WHOLE, "transform": _AFFINE, "materials": "wholes",
             "visibility": WHOLE, "holdout": FLAG, "pass_index": WHOLE, "random": NUMBER, "color": numbers_of(4),
-            "dupli_generated": _COLOR, "dupli_uv": numbers_of(2)}
+            "dupli_generated": _COLOR, "dupli_uv": numbers_of(2), "values": "values"}
 MATERIAL = {"name": TEXT, "graph": "graph", "viewport_color": _COLOR, "metallic": NUMBER, "roughness": NUMBER,
-            "use_transparent_shadow": FLAG, "sample_emission": FLAG, "pass_index": WHOLE}
+            "use_transparent_shadow": FLAG, "sample_emission": FLAG, "pass_index": WHOLE,
+            "displacement_method": one_of("bump", "displacement", "both")}
 LIGHT = {"name": TEXT, "kind": one_of("point", "spot", "sun", "area"), "transform": _AFFINE, "color": _COLOR,
          "energy": NUMBER, "radius": NUMBER, "spot_angle": NUMBER, "spot_blend": NUMBER, "angle": NUMBER,
          "shape": one_of("square", "rectangle", "disk", "ellipse"), "size_x": NUMBER, "size_y": NUMBER,
@@ -69,6 +70,7 @@ def _fits(value, kind):
         FLAG: lambda: isinstance(value, bool),
         WHOLE: lambda: isinstance(value, int) and not isinstance(value, bool),
         "wholes": lambda: all(isinstance(v, int) for v in value),
+        "values": lambda: all(set(v) == {"name", "value"} and _finite(v["value"], 4) for v in value),
         "bytes": lambda: isinstance(value, bytes) and len(value) > 0,
         "pixels": lambda: (isinstance(value, np.ndarray) and value.dtype == np.float32 and value.ndim == 3
                            and value.flags.c_contiguous and 1 <= value.shape[2] <= 4),

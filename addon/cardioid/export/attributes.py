@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ _COLORS = ("FLOAT_COLOR", "BYTE_COLOR")
 _DOMAINS = {"POINT": "point", "CORNER": "corner", "FACE": "face"}
 
 
-def layers(mesh: Any, tris: Any, wanted: set[str], owner: str, warnings: list[str]) -> list[Layer]:
+def layers(mesh: Any, tris: Any, wanted: Set[str], owner: str, warnings: list[str]) -> list[Layer]:
     """All UV maps and colours, and the attributes in `wanted`, on triangles' own corners, points or faces."""
     found = [(uv.name, "corner", _corners(_uv(uv), tris)) for uv in mesh.uv_layers]
     taken = {layer[0] for layer in found}

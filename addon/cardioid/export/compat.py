@@ -16,6 +16,8 @@ SINCE: dict[str, tuple[int, int]] = {
     "array_attributes": (4, 1),      # 'position' and '.corner_vert' are attributes, uv_layer.uv exists
     "principled_2": (4, 0),          # Principled BSDF with Coat, Sheen Weight, …
     "diffuse_2": (4, 3),             # rough diffuse keeps its energy
+    "bump_2": (3, 6),                # Bump's own normal may point below the surface
+    "normal_map_2": (4, 0),          # strength scales the map in tangent space
     "voronoi_2": (5, 0),             # another hash of the cells
     "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
     "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
@@ -28,6 +30,8 @@ NODE_SINCE = {
     "ShaderNodeBsdfPrincipled": "principled_2",
     "ShaderNodeBsdfGlass": "principled_2",
     "ShaderNodeBsdfDiffuse": "diffuse_2",
+    "ShaderNodeBump": "bump_2",
+    "ShaderNodeNormalMap": "normal_map_2",
     "ShaderNodeTexVoronoi": "voronoi_2",
 }
 
@@ -65,10 +69,10 @@ def transparent_shadow(material: Any) -> bool:
     return bool(cycles(material, "use_transparent_shadow", True))
 
 
-def true_displacement(material: Any) -> bool:
-    """Displacement moves the surface, instead of its normals alone."""
+def displacement_method(material: Any) -> str:
+    """MaterialDesc.displacement_method; on the material since 4.1, on material.cycles before."""
     on_material = getattr(material, "displacement_method", None)
-    return (on_material or cycles(material, "displacement_method", "BUMP")) != "BUMP"
+    return (on_material or cycles(material, "displacement_method", "BUMP")).lower()
 
 
 def has_light_linking(obj: Any) -> bool:

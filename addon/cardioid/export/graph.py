@@ -33,8 +33,10 @@ class _Place:
 class GraphWalk:
     """One use: `GraphWalk(tree, …).run()`."""
 
-    def __init__(self, owner: str, tree: Any, images: Images, warn: Callable[[str], None]) -> None:
-        self._owner, self._images, self._warn = owner, images, warn
+    def __init__(self, owner: str, tree: Any, images: Images, warn: Callable[[str], None],
+                 layer_value: Callable[[str], list[float]] | None = None) -> None:
+        """layer_value: what an Attribute node of type View Layer reads by a name; None: its value is left out."""
+        self._owner, self._images, self._warn, self._layer_value = owner, images, warn, layer_value
         self._root = _Place(tree)
         self._nodes: list[dict[str, Any]] = []
         self._index: dict[tuple[int, int], int] = {}
@@ -159,9 +161,15 @@ class GraphWalk:
         if key not in self._index:
             self._index[key] = len(self._nodes)
             self._append({"name": node.label or node.name, "type": node.bl_idname,
-                          "params": nodes.params(node, self._images), "inputs": {}})
+                          "params": self._params(node), "inputs": {}})
             self._open.append((self._index[key], node, place))
         return self._index[key]
+
+    def _params(self, node: Any) -> dict[str, Any]:
+        found = nodes.params(node, self._images)
+        if node.bl_idname == "ShaderNodeAttribute" and node.attribute_type == "VIEW_LAYER" and self._layer_value:
+            found["value"] = self._layer_value(node.attribute_name)
+        return found
 
     def _append(self, node: dict[str, Any]) -> int:
         self._nodes.append(node)

@@ -3,30 +3,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
 
-import bpy
-
-from . import compat
+from . import compat, needs
 from .graph import GraphWalk
 from .image import Images
-
-_ATTRIBUTE_PROPERTIES = ("attribute_name", "layer_name", "uv_map")
 
 
 class Materials:
     """Indices of materials in `scene`, each added when it is first asked for."""
 
-    def __init__(self, scene: Any, images: Images, override: Any, warnings: list[str]) -> None:
+    def __init__(self, scene: Any, images: Images, override: Any, warnings: list[str],
+                 layer_value: Callable[[str], list[float]] | None = None) -> None:
         self._scene, self._images, self._override, self._warnings = scene, images, override, warnings
+        self._layer_value = layer_value
         self._known: dict[int, int] = {}
+        self._needs: dict[int, needs.Needs] = {}
         self._graphs: dict[int, dict[str, Any] | None] = {}
 
     def indices(self, obj: Any) -> list[int]:
         """One for each slot of an evaluated object; -1: the default grey."""
-        slots = [self._override or slot.material for slot in obj.material_slots]
-        return [self.index(m) for m in slots or [self._override]]
+        return [self.index(m) for m in self._of(obj)]
+
+    def needs(self, obj: Any) -> needs.Needs:
+        """What the materials of an evaluated object read from it."""
+        found = needs.Needs()
+        for material in self._of(obj):
+            key = 0 if material is None else material.as_pointer()
+            if key not in self._needs:
+                self._needs[key] = needs.of_material(material)
+            found |= self._needs[key]
+        return found
+
+    def _of(self, obj: Any) -> list[Any]:
+        return [self._override or slot.material for slot in obj.material_slots] or [self._override]
 
     def index(self, material: Any) -> int:
         if material is None:
@@ -46,7 +57,7 @@ class Materials:
 
     def _walk(self, owner: str, tree: Any) -> dict[str, Any] | None:
         try:
-            return GraphWalk(owner, tree, self._images, self._warnings.append).run()
+            return GraphWalk(owner, tree, self._images, self._warnings.append, self._layer_value).run()
         except Exception as error:
             self._warnings.append(f"{owner}: nodes cannot be read: {error}")
             return None
@@ -60,25 +71,13 @@ class Materials:
             "use_transparent_shadow": compat.transparent_shadow(material),
             "sample_emission": compat.samples_emission(material),
             "pass_index": material.pass_index,
+            "displacement_method": compat.displacement_method(material),
         }
         graph = self.graph(material, "Material")
         if graph is not None:
             desc["graph"] = graph
-            if graph["displacement"] and compat.true_displacement(material):
-                self._warnings.append(f"Material “{material.name}”: true displacement is not supported, bump is used")
         try:
             return self._scene.add_material(desc)
         except Exception as error:
             self._warnings.append(f"Material “{material.name}”: {error}")
             return -1
-
-
-def attribute_names() -> set[str]:
-    """Names of mesh attributes that some material of the file could read."""
-    return {name for tree in _trees() for node in tree.nodes for key in _ATTRIBUTE_PROPERTIES
-            if (name := getattr(node, key, ""))}
-
-
-def _trees() -> Iterator[Any]:
-    yield from (m.node_tree for m in bpy.data.materials if m.node_tree)
-    yield from (g for g in bpy.data.node_groups if g.type == "SHADER")

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -12,8 +12,9 @@ import numpy as np
 
 from . import compat
 from .arrays import foreach, memory
-from .attributes import layers
-from .normals import corner_normals
+from .attributes import Layer, layers
+from .normals import corner_normals, triangle_normals
+from .tangents import corner_tangents
 
 _TRIANGLE = np.dtype((np.int32, 3))                             # 4.1 and later: corners only
 _TRIANGLE_POLYGON = np.dtype([("corners", np.int32, 3), ("polygon", np.int32)])  # before
@@ -41,21 +42,27 @@ def arrays_of(source: Any, data: Any) -> Iterator[Any]:
         source.to_mesh_clear()
 
 
-def add(scene: Any, name: str, mesh: Any, wanted: set[str], warnings: list[str]) -> int:
-    """Adds an evaluated mesh to `scene`; -1 when it has no triangles. `wanted`: attributes that materials name."""
+def add(scene: Any, name: str, mesh: Any, wanted: Set[str], warnings: list[str],
+        tangents: Set[str] = frozenset()) -> int:
+    """Adds an evaluated mesh to `scene`; -1 when it has no triangles. `wanted`: attributes that materials name;
+    `tangents`: UV maps (empty: the render-active one) whose tangents they need."""
     mesh.calc_loop_triangles()
     if len(mesh.loop_triangles) == 0:
         return -1
     positions = _positions(mesh)
     tris = triangles(mesh)
-    uvs = mesh.uv_layers
+    normals = corner_normals(mesh, positions, tris)
+    active_uv = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
     generated_min, generated_size = _texture_space(mesh)
+    attributes = layers(mesh, tris, wanted, name, warnings)
+    attributes += _tangents(attributes, {uv or active_uv for uv in tangents}, positions, tris, normals)
+    attributes += _undeformed(mesh, positions, generated_min, generated_size)
     return scene.add_mesh(
         name, positions, tris.vertices,
         slots=_slots(mesh, tris),
-        corner_normals=corner_normals(mesh, positions, tris),
-        attributes=layers(mesh, tris, wanted, name, warnings),
-        active_uv=next((layer.name for layer in uvs if layer.active_render), ""),
+        corner_normals=normals,
+        attributes=attributes,
+        active_uv=active_uv,
         active_color=_active_color(mesh),
         generated_min=generated_min, generated_size=generated_size)
 
@@ -97,6 +104,25 @@ def _texture_space(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
     half = np.array(mesh.texspace_size, np.float32)
     half[half == 0] = 1
     return location - half, 2 * half
+
+
+def _tangents(found: list[Layer], names: Set[str], positions: np.ndarray, tris: Triangles,
+              normals: np.ndarray | None) -> list[Layer]:
+    """The layer "#tangent:NAME" for each UV map of `found` that is in `names`."""
+    uvs = {name: data for name, domain, data in found if name in names and domain == "corner" and data.shape[2] == 2}
+    if uvs and normals is None:
+        flat = triangle_normals(positions[tris.vertices])[:, None, :]
+        normals = np.broadcast_to(flat, (*tris.vertices.shape, 3))
+    return [(f"#tangent:{name}", "corner", corner_tangents(positions, tris.vertices, normals, uv))
+            for name, uv in uvs.items()]
+
+
+def _undeformed(mesh: Any, positions: np.ndarray, low: np.ndarray, size: np.ndarray) -> list[Layer]:
+    """The layer "#generated" of a mesh that modifiers or shape keys have bent: Generated sticks to the surface."""
+    before = foreach(mesh.vertices, "undeformed_co", np.float32, 3)
+    if np.allclose(before, positions, rtol=0, atol=1e-6 * float(size.max())) or not np.isfinite(before).all():
+        return []
+    return [("#generated", "point", np.ascontiguousarray((before - low) / size, np.float32))]
 
 
 def _active_color(mesh: Any) -> str:

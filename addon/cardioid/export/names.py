@@ -24,15 +24,20 @@ def world_visibility(world: Any) -> int:
     return ALL if flags is None else SHADOW | sum(bit for name, bit in _WORLD_BITS if getattr(flags, name))
 
 
-def _rotate(x: int, k: int) -> int:
+def _rotate(x: Any, k: int) -> Any:
     return ((x << k) | (x >> (32 - k))) & _M
 
 
 def hash_name(name: str) -> int:
-    """The 32-bit number that Cycles gives an object without an instancer (string hash, then Jenkins' final mix)."""
+    """The 32-bit number that Cycles gives an object without an instancer."""
     key = 0
     for byte in name.encode():
         key = (key * 37 + (byte if byte < 128 else byte - 256)) & _M
+    return hash_number(key)
+
+
+def hash_number(key: Any) -> Any:
+    """Jenkins' final mix of (key, 0) as in Cycles' hash_uint2; an int, or an array of uint64."""
     seed = (0xDEADBEEF + (2 << 2) + 13) & _M
     a, b, c = (seed + key) & _M, seed, seed
     c = ((c ^ b) - _rotate(b, 14)) & _M
@@ -42,6 +47,11 @@ def hash_name(name: str) -> int:
     a = ((a ^ c) - _rotate(c, 4)) & _M
     b = ((b ^ a) - _rotate(a, 14)) & _M
     return ((c ^ b) - _rotate(b, 24)) & _M
+
+
+def unit_hash(key: Any) -> Any:
+    """`hash_number` as a number in [0, 1], as Particle Info and Hair Info give Random."""
+    return hash_number(key) / float(_M)
 
 
 def unit_random(number: int) -> float:

@@ -19,7 +19,7 @@ def corner_normals(mesh: Any, positions: np.ndarray, tris: Any) -> np.ndarray | 
     normals = _smooth_normals(mesh, tris)
     if flat.any():
         flat_tris = flat[tris.polygon]
-        normals[flat_tris] = _triangle_normals(positions[tris.vertices[flat_tris]])[:, None, :]
+        normals[flat_tris] = triangle_normals(positions[tris.vertices[flat_tris]])[:, None, :]
     return normals
 
 
@@ -45,7 +45,7 @@ def _smooth_normals(mesh: Any, tris: Any) -> np.ndarray:
     return normals
 
 
-def _triangle_normals(points: np.ndarray) -> np.ndarray:
+def triangle_normals(points: np.ndarray) -> np.ndarray:
     """Unit normals of (n, 3, 3) triangles; of degenerate ones, zero."""
     normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     length = np.linalg.norm(normal, axis=1, keepdims=True)

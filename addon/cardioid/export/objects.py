@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from . import compat, light, mesh, names
-from .material import Materials, attribute_names
+from . import compat, light, mesh, names, needs, values
+from .material import Materials
 from .options import ExportCancelled, ExportOptions
 
 _UNSUPPORTED = {"CURVES": "hair curves are", "POINTCLOUD": "point clouds are", "VOLUME": "volumes are",
@@ -21,6 +21,7 @@ class _Kind:
 
     mesh: int
     desc: dict[str, Any]
+    needs: needs.Needs = field(default_factory=needs.Needs)
 
 
 class Objects:
@@ -30,8 +31,9 @@ class Objects:
                  warnings: list[str]) -> None:
         self._scene, self._depsgraph, self._view_layer = scene, depsgraph, view_layer
         self._materials, self._options, self._warnings = materials, options, warnings
-        self._wanted = attribute_names()
-        self._meshes: dict[int, int] = {}
+        self._wanted = needs.of_file().attributes
+        self._frame = depsgraph.scene_eval.frame_current_final
+        self._meshes: dict[tuple[int, frozenset[str]], int] = {}
         self._kinds: dict[tuple[int, int, int], _Kind | None] = {}
         self._told: set[str] = set()
 
@@ -76,6 +78,9 @@ class Objects:
             desc["random"] = names.unit_random(instance.random_id)
             desc["dupli_generated"] = [0.5 * v - 0.5 for v in instance.orco]
             desc["dupli_uv"] = list(instance.uv)
+        found = values.of_instance(instance, kind.needs, self._frame)
+        if found:
+            desc["values"] = found
         self._scene.add_instance(desc)
 
     def _kind(self, obj: Any, source: Any, parent: Any) -> _Kind:
@@ -87,19 +92,20 @@ class Objects:
         if visibility == 0:
             return _Kind(-1, {})
         self._tell_unsupported(obj, owner)
-        index = self._mesh(obj, source)
+        read = self._materials.needs(obj)
+        index = self._mesh(obj, source, read.tangents)
         return _Kind(index, {} if index < 0 else {
             "name": obj.name, "mesh": index, "materials": self._materials.indices(obj), "visibility": visibility,
             "holdout": bool(holdout), "pass_index": obj.pass_index, "color": list(obj.color),
-            "random": names.unit_random(names.hash_name(obj.name))})
+            "random": names.unit_random(names.hash_name(obj.name))}, read)
 
-    def _mesh(self, obj: Any, source: Any) -> int:
+    def _mesh(self, obj: Any, source: Any, tangents: frozenset[str]) -> int:
         data = obj.data
-        key = data.as_pointer()
+        key = data.as_pointer(), tangents
         if key not in self._meshes:
             self._meshes[key] = -1
             with mesh.arrays_of(source, data) as filled:
-                self._meshes[key] = mesh.add(self._scene, data.name, filled, self._wanted, self._warnings)
+                self._meshes[key] = mesh.add(self._scene, data.name, filled, self._wanted, self._warnings, tangents)
         return self._meshes[key]
 
     def _lamp(self, instance: Any, obj: Any) -> None:

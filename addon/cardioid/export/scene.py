@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from . import camera, world
+from . import camera, values, world
 from .image import Images
 from .material import Materials
 from .objects import Objects
@@ -25,7 +25,8 @@ def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptio
     source = depsgraph.scene_eval
     layer = depsgraph.view_layer_eval or view_layer
     images = Images(target, source.frame_current, warnings)
-    materials = Materials(target, images, layer.material_override, warnings)
+    materials = Materials(target, images, layer.material_override, warnings,
+                          lambda name: values.of_view_layer(source, layer, name))
     with _timed(timings, "total"):
         viewer = camera.camera_object(source, options)
         target.set_camera(camera.describe(viewer, source, options, warnings))

@@ -161,14 +161,15 @@ def test_every_shader_node_can_be_exported():
     assert not failed and count > 70
 
 
-def test_true_displacement_is_named():
+@pytest.mark.parametrize("method", ["BUMP", "DISPLACEMENT", "BOTH"])
+def test_displacement_method(method):
     new, tree = material()
     use(new)
     end = tree.nodes.new("ShaderNodeOutputMaterial")
-    (new if hasattr(new, "displacement_method") else new.cycles).displacement_method = "DISPLACEMENT"
-    assert not export().warnings
+    (new if hasattr(new, "displacement_method") else new.cycles).displacement_method = method
     tree.links.new(tree.nodes.new("ShaderNodeDisplacement").outputs[0], end.inputs["Displacement"])
-    assert any("Material" in w and "displacement" in w for w in export().warnings)
+    exported = export()
+    assert exported.scene.materials[0]["displacement_method"] == method.lower() and not exported.warnings
 
 
 def test_an_unreadable_tree_is_named_and_the_rest_renders(monkeypatch):
