@@ -27,6 +27,26 @@ enum class LobeKind : std::uint8_t {
     /// `weight` contains the albedo, as in Cycles. eval is 0: path/ walks, takes channels whose radius is under 1e-8 for
     /// diffuse, and paths after a diffuse bounce too. Photons take it for a D lobe.
     subsurface,
+    toon_diffuse,  ///< constant in a cone about the normal; roughness: size, alpha_x: smooth, both in [0,1] as in the node
+    toon_glossy,  ///< the same about the mirror direction
+    /// Hair BSDF. tangent: along the strand; alpha_x, alpha_y: its two roughnesses; roughness: offset in radians.
+    hair_reflection,
+    hair_transmission,
+    /// Principled Hair (Chiang et al. 2016). tangent: along the strand, unit; f0: absorption; eta: index inside (not by side);
+    /// alpha_x, alpha_y: longitudinal and azimuthal roughness; roughness: factor of the first lobe's roughness; f90[0]: h, place
+    /// across the strand in [-1,1]; f90[1]: tilt of the cuticle in radians.
+    hair_chiang,
+    /// Principled Hair (Huang et al. 2022). As hair_chiang with alpha_x: roughness; roughness: aspect ratio; f90[2]: pixel
+    /// coverage; tint_transmission: factors of R, TT, TRT; normal: minor axis of the elliptical section.
+    hair_huang,
+};
+
+/// Facet distribution of the ggx_* kinds.
+enum class Distribution : std::uint8_t {
+    ggx,
+    beckmann,
+    ashikhmin_shirley,  ///< reflection only; the alphas as for the others
+    gtr1,               ///< reflection only: clearcoat of 3.4's Principled, masked as GGX of alpha 0.25; isotropic
 };
 
 enum class Fresnel : std::uint8_t {
@@ -45,6 +65,12 @@ struct alignas(64) Lobe {
     /// GGX reflection and glass: compensate for scattering between facets (multiscatter GGX). Diffuse with roughness
     /// > 0: the energy-preserving Oren–Nayar of Blender 4.3 and later (off: the one before).
     bool preserve_energy = false;
+    Distribution distribution = Distribution::ggx;
+    /// ggx_*: masking and shadowing as independent factors (Blender before 4.0).
+    bool separable_masking = false;
+    /// ggx_* with Fresnel dielectric, schlick, f82 or conductor: `roughness` is the thickness of a film in nm (0: none in the
+    /// lane), film_ior its index relative to wo's side.
+    bool thin_film = false;
     Row weight[3];         ///< throughput weight, 0 where the lobe is absent in a lane
     Row normal[3];         ///< unit, on the side of wo after bending (bump and normal maps applied)
     Row roughness;         ///< diffuse: Oren–Nayar sigma in [0,1]; sheen, burley, velvet: see LobeKind
@@ -56,18 +82,32 @@ struct alignas(64) Lobe {
     /// Fresnel::dielectric.
     Row f0[3], f90[3];
     Row tint_transmission[3];  ///< glass: factor of the transmitted part, on top of weight
+    Row film_ior;              ///< see thin_film
 };
+
+constexpr bool is_microfacet(LobeKind kind) {
+    return kind == LobeKind::ggx_reflection || kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass;
+}
+
+/// Bends what it sends through by `eta`.
+constexpr bool refracts(LobeKind kind) { return kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass; }
+
+/// Scatters over the whole sphere about a strand; the sides of the surface mean nothing to it.
+constexpr bool is_hair(LobeKind kind) {
+    return kind == LobeKind::hair_reflection || kind == LobeKind::hair_transmission || kind == LobeKind::hair_chiang ||
+           kind == LobeKind::hair_huang;
+}
 
 /// Diffuse-like: counts as a diffuse bounce, or as transmission where it sends light through.
 constexpr bool is_diffuse_kind(LobeKind kind) {
-    return kind != LobeKind::ggx_reflection && kind != LobeKind::ggx_refraction && kind != LobeKind::ggx_glass;
+    return !is_microfacet(kind) && !is_hair(kind) && kind != LobeKind::toon_glossy;
 }
 
 /// Light leaves at another point than it entered.
 constexpr bool is_subsurface(LobeKind kind) { return kind == LobeKind::subsurface; }
 
 constexpr bool sends_light_through(LobeKind kind) {
-    return kind == LobeKind::translucent || kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass;
+    return kind == LobeKind::translucent || refracts(kind) || is_hair(kind);
 }
 
 /// At or under this alpha a GGX lane is a delta.

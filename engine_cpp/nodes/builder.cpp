@@ -128,4 +128,20 @@ void Builder::holdout(Ref weight) {
     emit(Op::holdout, {weight});
 }
 
+void Builder::medium_absorption(Ref3 coefficient) {
+    if (optimise_ && is(coefficient, 0)) return;
+    emit(Op::medium_absorption, {coefficient.x, coefficient.y, coefficient.z});
+}
+
+void Builder::medium_emission(Ref3 radiance) {
+    if (optimise_ && is(radiance, 0)) return;
+    emit(Op::medium_emission, {radiance.x, radiance.y, radiance.z});
+}
+
+void Builder::medium_phase(bsdf::PhaseKind kind, Ref3 scatter, Ref3 parameter) {
+    if (optimise_ && is(scatter, 0)) return;
+    emit(Op::medium_phase, {scatter.x, scatter.y, scatter.z, parameter.x, parameter.y, parameter.z},
+         static_cast<std::uint32_t>(kind));
+}
+
 }  // namespace cardioid::nodes

@@ -3,6 +3,7 @@
 // The builder folds constants by running the interpreter, merges equal instructions and drops neutral arithmetic.
 #pragma once
 
+#include "bsdf/phase_kind.h"
 #include "nodes/instructions.h"
 
 #include <array>
@@ -149,6 +150,9 @@ public:
     void emission(Ref3 radiance);
     void transparent(Ref3 weight);
     void holdout(Ref weight);
+    void medium_absorption(Ref3 coefficient);
+    void medium_emission(Ref3 radiance);
+    void medium_phase(bsdf::PhaseKind kind, Ref3 scatter, Ref3 parameter);
 
     const std::vector<IrInstruction>& code() const { return code_; }
     std::span<const Ref> args(const IrInstruction& in) const { return {args_.data() + in.first_arg, in.args}; }

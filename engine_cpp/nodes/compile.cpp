@@ -37,6 +37,7 @@ bool reads_triangle(const Program& p) {
         return row >= static_cast<int>(ChunkRow::barycentric_u) && row < static_cast<int>(ChunkRow::footprint);
     };
     return uses(p, Op::attribute) || uses(p, Op::uv_tangent) || uses(p, Op::barycentric_step) ||
+           uses(p, Op::wireframe) ||
            std::any_of(p.args.begin(), p.args.end(), frame);
 }
 
@@ -80,6 +81,13 @@ float least_alpha(const Program& p) {
     return least;
 }
 
+/// Every coefficient of the medium is a number.
+bool is_constant_medium(const Program& p) {
+    return std::all_of(p.args.begin(), p.args.end(), [](std::uint16_t arg) { return (arg & operand_constant) != 0; }) &&
+           std::all_of(p.code.begin(), p.code.end(),
+                       [](const Instruction& in) { return op_info(in.op).kind == OpKind::effect; });
+}
+
 ProgramInfo describe(const CompiledGraph& g) {
     const Program& surface = g.of(Purpose::surface);
     const Program& emission = g.of(Purpose::emission);
@@ -97,12 +105,16 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.own_normals = makes_normals(surface);
     info.needs_triangle_frame = reads_triangle(surface);
     info.needs_instance =
-        uses(surface, Op::instance_value) || uses(surface, Op::transform) || uses(surface, Op::uv_tangent);
+        uses(surface, Op::instance_value) || uses(surface, Op::named_value) || uses(surface, Op::transform) ||
+        uses(surface, Op::uv_tangent);
     for (const Instruction& in : surface.code)
         info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
                       in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;
     info.has_lobes = info.lobes > 0;
     info.least_alpha = least_alpha(surface);
+    const Program& volume = g.of(Purpose::volume);
+    info.has_volume = !volume.code.empty();
+    info.constant_volume = is_constant_medium(volume);
     return info;
 }
 

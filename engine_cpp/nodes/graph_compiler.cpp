@@ -54,7 +54,8 @@ void GraphCompiler::cut_bad_links() {
     }
     for (scene::OutputDesc* out : {&graph_.surface, &graph_.volume, &graph_.displacement})
         if (out->node >= count) out->node = -1;
-    if (graph_.surface.node >= 0) used_.emplace(graph_.surface.node, graph_.surface.socket);
+    for (const scene::OutputDesc& out : {graph_.surface, graph_.volume})
+        if (out.node >= 0) used_.emplace(out.node, out.socket);
 }
 
 /// Depth-first over all nodes; a link back to a node that is still open closes a loop and is cut.
@@ -94,11 +95,18 @@ void GraphCompiler::cut_loops() {
 }
 
 void GraphCompiler::run() {
+    run_surface();
+    run_volume();
+}
+
+void GraphCompiler::run_surface() {
     const scene::OutputDesc& surface = graph_.surface;
-    if (graph_.volume.node >= 0)
-        warn("volume", std::string("Volume shaders are not supported yet (") + kind_name(context_.kind) + " '" +
-                           context_.name + "')");
-    if (surface.node < 0) return;
+    if (surface.node < 0) {
+        // A medium alone has no surface: rays enter it as they are. Nothing at all is black.
+        if (graph_.volume.node >= 0 && context_.kind == GraphKind::material)
+            builder_.transparent(builder_.constant({1, 1, 1}));
+        return;
+    }
     apply_displacement();
     if (is_closure(surface.node)) {
         run_closures(surface.node);
@@ -112,6 +120,39 @@ void GraphCompiler::run() {
     evaluate(surface.node, Shift::none);
     const Value* v = output(surface.node, surface.socket, Shift::none);
     if (v != nullptr) builder_.emission(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v);
+}
+
+/// The medium behind the surface, or of the world. Lamps have none.
+void GraphCompiler::run_volume() {
+    const scene::OutputDesc& out = graph_.volume;
+    if (out.node < 0 || context_.kind == GraphKind::light) return;
+    in_volume_ = true;
+    if (is_closure(out.node)) {
+        run_closures(out.node);
+    } else if (types_[static_cast<std::size_t>(out.node)] == nullptr) {
+        name_unknown(out.node);
+    } else {
+        evaluate(out.node, Shift::none);
+        const Value* v = output(out.node, out.socket, Shift::none);
+        if (v != nullptr) builder_.medium_emission(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v);
+    }
+    for (const Phase& p : phases_) builder_.medium_phase(p.kind, p.scatter, p.parameter);
+}
+
+void GraphCompiler::add_phase(PhaseKind kind, Ref3 scatter, Ref3 parameter, int node) {
+    const auto same = std::find_if(phases_.begin(), phases_.end(), [&](const Phase& p) {
+        return p.kind == kind && (kind == PhaseKind::rayleigh || p.parameter == parameter);
+    });
+    if (same != phases_.end()) {
+        same->scatter = builder_.add(same->scatter, scatter);
+    } else if (phases_.size() < static_cast<std::size_t>(k_max_phases)) {
+        phases_.push_back({kind, scatter, parameter});
+    } else {
+        warn(context_.name + "/phases",
+             place(node) +
+                 ": the volume scatters in more ways than can be kept; this one is shaped like the one before");
+        phases_.back().scatter = builder_.add(phases_.back().scatter, scatter);
+    }
 }
 
 /// Displacement as bump mapping: the height is the displacement along the normal.
@@ -165,6 +206,7 @@ std::vector<int> GraphCompiler::closure_order(int root) const {
 void GraphCompiler::run_closures(int root) {
     const Ref zero = builder_.constant(0);
     std::fill(weight_.begin(), weight_.end(), zero);
+    std::fill(reached_.begin(), reached_.end(), false);
     weight_[static_cast<std::size_t>(root)] = builder_.constant(1);
     reached_[static_cast<std::size_t>(root)] = true;
     for (const int node : closure_order(root)) {

@@ -6,6 +6,7 @@
 #include "nodes/builder.h"
 #include "nodes/compile.h"
 #include "nodes/node_types.h"
+#include "nodes/shading.h"
 
 #include <map>
 #include <set>
@@ -36,6 +37,10 @@ public:
     int lobes() const { return lobes_; }
     /// The shading normal; bumped where the material's displacement is.
     Ref3 normal() const { return normal_; }
+    /// The volume output is being walked: surfaces are left out, emission is that of the medium.
+    bool in_volume() const { return in_volume_; }
+    /// A scattering part of the medium; parts of one kind and parameter are summed.
+    void add_phase(PhaseKind kind, Ref3 scatter, Ref3 parameter, int node);
 
 private:
     friend class NodeContext;
@@ -45,6 +50,8 @@ private:
     void cut_bad_links();
     void cut_loops();
     void apply_displacement();
+    void run_surface();
+    void run_volume();
     void run_closures(int root);
     std::vector<int> closure_order(int root) const;
     bool is_closure(int node) const { return types_[node] != nullptr && types_[node]->closure != nullptr; }
@@ -69,6 +76,12 @@ private:
     Ref3 normal_;
     int bump_depth_ = 0;
     int lobes_ = 0;
+    struct Phase {
+        PhaseKind kind;
+        Ref3 scatter, parameter;
+    };
+    std::vector<Phase> phases_;
+    bool in_volume_ = false;
 };
 
 }  // namespace cardioid::nodes

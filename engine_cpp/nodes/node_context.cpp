@@ -96,16 +96,28 @@ Ref3 NodeContext::generated() {
                    transform_mode(Space::generated, Quantity::point, Direction::from_world));
 }
 
-std::uint32_t NodeContext::attribute_id(const std::string& name) {
-    std::vector<std::string>* names = compiler_.context().attribute_names;
+namespace {
+
+/// Id of a name in a list that grows; -1 (as unsigned) without a list.
+std::uint32_t id_in(std::vector<std::string>* names, const std::string& name) {
     if (names == nullptr) return 0xffffffffu;
     auto it = std::find(names->begin(), names->end(), name);
     if (it == names->end()) it = names->insert(names->end(), name);
     return static_cast<std::uint32_t>(it - names->begin());
 }
 
-Results NodeContext::attribute(const std::string& name) {
-    return b.emit_all(Op::attribute, {barycentric_u(), barycentric_v()}, attribute_id(name));
+}  // namespace
+
+std::uint32_t NodeContext::attribute_id(const std::string& name) {
+    return id_in(compiler_.context().attribute_names, name);
+}
+
+Results NodeContext::attribute(const std::string& name, std::uint32_t missing) {
+    return b.emit_all(Op::attribute, {barycentric_u(), barycentric_v()}, attribute_id(name), missing);
+}
+
+Results NodeContext::instance_value(const std::string& name) {
+    return b.emit_all(Op::named_value, {}, id_in(compiler_.context().instance_value_names, name));
 }
 
 Ref NodeContext::number_at(const char* id, Shift shift, float fallback) {
@@ -123,12 +135,12 @@ void NodeContext::shader(const char* id, Ref weight) {
     const scene::InputDesc* in = input(id);
     if (in == nullptr || !in->linked()) return;
     if (compiler_.types_[static_cast<std::size_t>(in->node)] == nullptr) {
-        compiler_.unknown_surface(in->node, weight);
+        in_volume() ? compiler_.name_unknown(in->node) : compiler_.unknown_surface(in->node, weight);
         return;
     }
     if (!compiler_.is_closure(in->node)) {
         // A value where a shader is expected is emission.
-        if (source(id) != nullptr) b.emission(b.multiply(color(id), weight));
+        if (source(id) != nullptr) emission(b.multiply(color(id), weight));
         return;
     }
     const auto n = static_cast<std::size_t>(in->node);
@@ -136,7 +148,22 @@ void NodeContext::shader(const char* id, Ref weight) {
     compiler_.reached_[n] = true;
 }
 
+void NodeContext::emission(Ref3 radiance) { in_volume() ? b.medium_emission(radiance) : b.emission(radiance); }
+void NodeContext::transparent(Ref3 weight) {
+    if (!in_volume()) b.transparent(weight);
+}
+void NodeContext::holdout(Ref weight) {
+    if (!in_volume()) b.holdout(weight);
+}
+void NodeContext::absorption(Ref3 coefficient) {
+    if (in_volume()) b.medium_absorption(b.maximum(coefficient, b.constant(0)));
+}
+void NodeContext::scattering(PhaseKind phase, Ref3 coefficient, Ref3 parameter) {
+    if (in_volume()) compiler_.add_phase(phase, b.maximum(coefficient, b.constant(0)), parameter, index_);
+}
+
 bool NodeContext::room_for_lobe(Ref3 weight) {
+    if (in_volume() || kind() != GraphKind::material) return false;
     if (b.optimise() && b.is(weight, 0)) return false;
     if (compiler_.lobes_ < bsdf::k_max_lobes) {
         ++compiler_.lobes_;
@@ -149,7 +176,7 @@ bool NodeContext::room_for_lobe(Ref3 weight) {
 
 void NodeContext::simple_lobe(bsdf::LobeKind lobe, Ref3 weight, Ref3 n, Ref roughness, bool preserve_energy,
                               Ref3 color_rows) {
-    if (kind() != GraphKind::material || !room_for_lobe(weight)) return;
+    if (!room_for_lobe(weight)) return;
     const std::uint32_t imm =
         static_cast<std::uint32_t>(lobe) | lobe_keep | (preserve_energy ? lobe_preserve_energy : 0u);
     b.emit(Op::lobe_simple,
@@ -168,7 +195,7 @@ GgxLobe NodeContext::ggx() {
 }
 
 Ref NodeContext::ggx_lobe(const GgxLobe& l) {
-    if (kind() != GraphKind::material || !room_for_lobe(l.weight)) return b.constant(1);
+    if (!room_for_lobe(l.weight)) return b.constant(1);
     const std::uint32_t imm = static_cast<std::uint32_t>(l.kind) |
                               static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
                               (l.preserve_energy ? lobe_preserve_energy : 0u);
@@ -181,7 +208,7 @@ Ref NodeContext::ggx_lobe(const GgxLobe& l) {
 }
 
 Ref NodeContext::sheen_lobe(Ref3 weight, Ref3 n, Ref roughness, Ref3 layer_weight) {
-    if (kind() != GraphKind::material || !room_for_lobe(weight)) return b.constant(1);
+    if (!room_for_lobe(weight)) return b.constant(1);
     return b.emit(
         Op::lobe_sheen,
         {weight.x, weight.y, weight.z, n.x, n.y, n.z, roughness, layer_weight.x, layer_weight.y, layer_weight.z},

@@ -61,8 +61,10 @@ public:
     Ref barycentric_v() { return barycentric(1); }
     /// Id of an attribute name; -1 (as unsigned) when the caller keeps no names.
     std::uint32_t attribute_id(const std::string& name);
-    /// Attribute by name: x, y, z, w rows.
-    Results attribute(const std::string& name);
+    /// Attribute by name: x, y, z, w rows; `missing` is an AttributeMissing.
+    Results attribute(const std::string& name, std::uint32_t missing = 0);
+    /// What the instance has by that name (scene::InstanceValueDesc): x, y, z, w rows.
+    Results instance_value(const std::string& name);
     GraphKind kind() const { return compiler_.context().kind; }
     Shift shift() const { return shift_; }
     const image::ImageStore* images() const { return compiler_.context().images; }
@@ -74,6 +76,15 @@ public:
     // Closures.
     /// Gives `weight` to what is linked to a shader input.
     void shader(const char* id, Ref weight);
+    /// Of the surface, or of the medium where the volume is walked.
+    void emission(Ref3 radiance);
+    // Surfaces alone.
+    void transparent(Ref3 weight);
+    void holdout(Ref weight);
+    // Volumes alone: coefficients per scene unit, negative ones are 0.
+    bool in_volume() const { return compiler_.in_volume(); }
+    void absorption(Ref3 coefficient);
+    void scattering(PhaseKind phase, Ref3 coefficient, Ref3 parameter);
     void simple_lobe(bsdf::LobeKind kind, Ref3 weight, Ref3 normal, Ref roughness, bool preserve_energy, Ref3 color);
     /// Returns the share of light that passes to the layers below (meaningful with layer_weight).
     Ref ggx_lobe(const GgxLobe& lobe);

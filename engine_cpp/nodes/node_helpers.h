@@ -6,6 +6,24 @@
 
 namespace cardioid::nodes {
 
+inline Ref3 rows3(const Results& r) { return {r[0], r[1], r[2]}; }
+
+inline Ref3 instance3(NodeContext& c, InstanceValue value) {
+    return rows3(c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(value)));
+}
+
+inline Ref ray_value(NodeContext& c, RayValue v) {
+    return c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v));
+}
+
+/// Object space to world space.
+inline Ref3 to_world(NodeContext& c, Ref3 v, Quantity quantity) {
+    return c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(Space::object, quantity, Direction::to_world));
+}
+inline Ref3 to_object(NodeContext& c, Ref3 v, Quantity quantity) {
+    return c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(Space::object, quantity, Direction::from_world));
+}
+
 /// Relative index for the side that wo is on.
 inline Ref sided_eta(NodeContext& c, Ref ior) {
     const Ref eta = c.b.maximum(ior, c.b.constant(1e-5f));
@@ -64,6 +82,9 @@ inline Ref3 active_uv(NodeContext& c) {
 
 /// a·v + translation with a constant matrix.
 Ref3 constant_affine(NodeContext& c, const Affine& a, Ref3 v, bool translate);
+
+/// Colour of a black body, luminance 1, as the Blackbody node gives it.
+Ref3 blackbody_color(NodeContext& c, Ref temperature);
 
 /// Fresnel reflectance of a dielectric for the cosine of incidence.
 inline Ref fresnel(NodeContext& c, Ref cosine, Ref eta) { return c.b.emit(Op::fresnel, {cosine, eta}); }

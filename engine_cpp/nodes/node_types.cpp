@@ -7,20 +7,38 @@ namespace cardioid::nodes {
 
 namespace {
 
-std::map<std::string, const NodeType*> make_index() {
-    std::map<std::string, const NodeType*> index;
-    for (const auto family : {closure_nodes(), principled_nodes(), input_nodes(), math_nodes(), color_nodes(),
-                              convert_nodes(), texture_nodes(), image_nodes(), vector_nodes()})
+constexpr NodeType k_unsupported[] = {
+    {"ShaderNodeScript", nullptr, nullptr, Support::none, "OSL"},
+};
+
+using Index = std::map<std::string, const NodeType*>;
+
+Index make_index() {
+    Index index;
+    for (const auto family :
+         {closure_nodes(), principled_nodes(), input_nodes(), info_nodes(), math_nodes(), color_nodes(),
+          convert_nodes(), texture_nodes(), image_nodes(), vector_nodes()})
         for (const NodeType& type : family) index.emplace(type.idname, &type);
     return index;
 }
 
-const std::map<std::string, const NodeType*>& node_index() {
-    static const std::map<std::string, const NodeType*> index = make_index();
+const Index& node_index() {
+    static const Index index = make_index();
     return index;
 }
 
+const char* word(Support s) {
+    switch (s) {
+        case Support::same: return "same";
+        case Support::approximated: return "approximated";
+        case Support::none: return "not supported";
+        default: return "—";
+    }
+}
+
 }  // namespace
+
+std::span<const NodeType> unsupported_nodes() { return k_unsupported; }
 
 const NodeType* find_node_type(const std::string& idname) {
     const auto it = node_index().find(idname);
@@ -28,10 +46,19 @@ const NodeType* find_node_type(const std::string& idname) {
 }
 
 std::string node_table_markdown() {
-    std::string text = "| node | as in Cycles | notes |\n|---|---|---|\n";
-    for (const auto& [name, type] : node_index())
-        text += "| `" + name + "` | " + (type->support == Support::same ? "same" : "approximated") + " | " +
-                type->note + " |\n";
+    Index all = node_index();
+    for (const NodeType& type : unsupported_nodes()) all.emplace(type.idname, &type);
+    std::string text = "| node |", rule = "\n|---|";
+    for (const char* version : k_blender_versions) {
+        text += std::string(" ") + version + " |";
+        rule += "---|";
+    }
+    text += " notes |" + rule + "---|\n";
+    for (const auto& [name, type] : all) {
+        text += "| `" + name + "` |";
+        for (const Support s : type->support.in) text += std::string(" ") + word(s) + " |";
+        text += std::string(" ") + type->note + " |\n";
+    }
     return text;
 }
 

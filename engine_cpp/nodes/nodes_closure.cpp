@@ -26,11 +26,11 @@ void add_shader(NodeContext& c, Ref weight) {
 }
 
 void emission(NodeContext& c, Ref weight) {
-    c.b.emission(c.b.multiply(c.b.multiply(c.color("Color", {1, 1, 1}), c.number("Strength", 1)), weight));
+    c.emission(c.b.multiply(c.b.multiply(c.color("Color", {1, 1, 1}), c.number("Strength", 1)), weight));
 }
 
-void transparent(NodeContext& c, Ref weight) { c.b.transparent(weighted(c, weight)); }
-void holdout(NodeContext& c, Ref weight) { c.b.holdout(weight); }
+void transparent(NodeContext& c, Ref weight) { c.transparent(weighted(c, weight)); }
+void holdout(NodeContext& c, Ref weight) { c.holdout(weight); }
 
 void diffuse(NodeContext& c, Ref weight) {
     const Ref roughness = c.number("Roughness", 0);

@@ -119,9 +119,9 @@ void v1_clearcoat(NodeContext& c, Ref weight) {
 
 void principled_v1(NodeContext& c, Ref weight) {
     const Ref alpha = c.b.saturate(c.number("Alpha", 1));
-    c.b.transparent(c.b.broadcast(c.b.multiply(weight, c.b.one_minus(alpha))));
+    c.transparent(c.b.broadcast(c.b.multiply(weight, c.b.one_minus(alpha))));
     weight = c.b.multiply(weight, alpha);
-    c.b.emission(c.b.multiply(c.b.multiply(c.color("Emission"), c.number("Emission Strength", 1)), weight));
+    c.emission(c.b.multiply(c.b.multiply(c.color("Emission"), c.number("Emission Strength", 1)), weight));
     if (c.b.optimise() && c.b.is(weight, 0)) return;
     V1 p;
     p.base = c.color("Base Color", {0.8f, 0.8f, 0.8f});
@@ -252,7 +252,7 @@ void v2_specular(NodeContext& c, V2& p) {
 void principled_v2(NodeContext& c, Ref mix_weight) {
     const Ref zero = c.b.constant(0);
     const Ref alpha = c.b.saturate(c.number("Alpha", 1));
-    c.b.transparent(c.b.broadcast(c.b.multiply(mix_weight, c.b.one_minus(alpha))));
+    c.transparent(c.b.broadcast(c.b.multiply(mix_weight, c.b.one_minus(alpha))));
     V2 p;
     p.weight = c.b.broadcast(c.b.multiply(mix_weight, alpha));
     if (c.b.optimise() && c.b.is(p.weight, 0)) return;
@@ -260,7 +260,7 @@ void principled_v2(NodeContext& c, Ref mix_weight) {
     v2_sheen(c, p, coat);
     v2_coat(c, p, coat);
     const Ref3 emitted = c.b.multiply(c.color("Emission Color", {1, 1, 1}), c.number("Emission Strength", 0));
-    c.b.emission(c.b.multiply(emitted, p.weight));
+    c.emission(c.b.multiply(emitted, p.weight));
 
     p.base = c.b.maximum(c.color("Base Color", {0.8f, 0.8f, 0.8f}), zero);
     p.clamped_base = c.b.minimum(p.base, c.b.constant(1));

@@ -6,13 +6,16 @@
 
 namespace cardioid::nodes {
 
-/// imm of the lobe ops: kind | fresnel << 4, and flags.
+/// imm of the lobe ops: kind | fresnel << 5 | distribution << 9, and flags.
 enum LobeBits : std::uint32_t {
-    lobe_kind_mask = 0xf,
-    lobe_fresnel_shift = 4,
-    lobe_preserve_energy = 1u << 8,
-    lobe_keep = 1u << 9,    ///< false: only its result is wanted (emission under a coat)
-    lobe_layer = 1u << 10,  ///< the result is read
+    lobe_kind_mask = 0x1f,
+    lobe_fresnel_shift = 5,
+    lobe_distribution_shift = 9,
+    lobe_preserve_energy = 1u << 12,
+    lobe_keep = 1u << 13,   ///< false: only its result is wanted (emission under a coat)
+    lobe_layer = 1u << 14,  ///< the result is read
+    lobe_separable = 1u << 15,
+    lobe_thin_film = 1u << 16,
 };
 
 enum class InstanceValue : std::uint32_t {
@@ -32,6 +35,12 @@ enum class Direction : std::uint32_t { from_world, to_world };
 inline constexpr std::uint32_t transform_mode(Space s, Quantity q, Direction d) {
     return static_cast<std::uint32_t>(s) | static_cast<std::uint32_t>(q) << 4 | static_cast<std::uint32_t>(d) << 8;
 }
+
+/// data of the attribute op.
+enum AttributeMissing : std::uint32_t {
+    attribute_missing_opaque,  ///< alpha is 1 where the mesh lacks the attribute
+    attribute_missing_clear,   ///< alpha is 0 there
+};
 
 /// Entries of ramp and curve tables.
 inline constexpr int k_table_size = 256;

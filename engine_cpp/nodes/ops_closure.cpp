@@ -6,6 +6,7 @@
 
 namespace cardioid::CD_ISA_NS {
 
+using bsdf::Distribution;
 using bsdf::Fresnel;
 using bsdf::Lobe;
 using bsdf::LobeKind;
@@ -31,6 +32,9 @@ Lobe& begin_lobe(const Machine& m, const Instruction& in, Lobe& spare) {
     lobe.kind = static_cast<LobeKind>(in.imm & nodes::lobe_kind_mask);
     lobe.fresnel = static_cast<Fresnel>(in.imm >> nodes::lobe_fresnel_shift & 0xf);
     lobe.preserve_energy = (in.imm & nodes::lobe_preserve_energy) != 0;
+    lobe.distribution = static_cast<Distribution>(in.imm >> nodes::lobe_distribution_shift & 0x7);
+    lobe.separable_masking = (in.imm & nodes::lobe_separable) != 0;
+    lobe.thin_film = (in.imm & nodes::lobe_thin_film) != 0;
     copy_rows(m, in, 0, lobe.weight);
     copy_rows(m, in, 3, lobe.normal);
     return lobe;

@@ -22,6 +22,14 @@ void clear(float* row, int end) {
     for (int i = 0; i < end; i += W) store(row + i, Float(0.0f));
 }
 
+void clear_medium(nodes::VolumeOutput& medium, int end) {
+    medium.phases = 0;
+    for (int c = 0; c < 3; ++c) {
+        clear(medium.absorption[c], end);
+        clear(medium.emission[c], end);
+    }
+}
+
 }  // namespace
 
 void run_code(const nodes::ProgramView& view, const nodes::ShadingChunk& chunk, nodes::SurfaceOutput& out,
@@ -42,6 +50,7 @@ void run_program(const nodes::Program& program, const nodes::ShadingChunk& chunk
         clear(out.transparency[c], end);
     }
     clear(out.holdout, end);
+    if (out.volume != nullptr) clear_medium(*out.volume, end);
     run_code(program.view, chunk, out, scratch.registers[0]);
 }
 

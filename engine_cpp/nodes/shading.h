@@ -4,6 +4,7 @@
 #pragma once
 
 #include "bsdf/lobe.h"
+#include "bsdf/phase_kind.h"
 #include "math/types.h"
 
 #include <array>
@@ -109,14 +110,13 @@ struct alignas(64) ShadingChunk {
     Row ray_depth, diffuse_depth, glossy_depth, transmission_depth, transparent_depth;
 };
 
-/// Phase functions of a medium, by Blender's Volume Scatter node.
-enum class PhaseKind : std::uint8_t { henyey_greenstein, rayleigh, fournier_forand, draine, mie };
+using bsdf::PhaseKind;
 
 /// One scattering part of a medium.
 struct alignas(64) MediumPhase {
     PhaseKind kind = PhaseKind::henyey_greenstein;
     Row scatter[3];    ///< coefficient per scene unit
-    Row parameter[3];  ///< henyey_greenstein: g; draine: g, alpha; fournier_forand: backscatter, index; mie: diameter
+    Row parameter[3];  ///< see bsdf/phase_kind.h; bsdf/phase.h evaluates and samples
 };
 inline constexpr int k_max_phases = 4;
 

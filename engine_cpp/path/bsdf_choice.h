@@ -24,7 +24,7 @@ enum class Transport : bool { radiance, flux };
 
 /// Light that a lobe refracts is scaled by 1/eta², either where radiance is carried or where flux is (spec 1, adjoints).
 inline Float refraction_scale(const bsdf::Lobe& lobe, int i, Vec3 wi, Vec3 ng, bool scaled) {
-    if (!scaled || bsdf::is_diffuse_kind(lobe.kind) || lobe.kind == bsdf::LobeKind::ggx_reflection) return 1.0f;
+    if (!scaled || !bsdf::refracts(lobe.kind)) return 1.0f;
     const Float eta = load(lobe.eta + i);
     return select(dot(wi, ng) < Float(0.0f), 1.0f / (eta * eta), Float(1.0f));
 }
