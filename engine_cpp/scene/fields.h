@@ -119,6 +119,7 @@ void fields(V& v, Of<MeshDesc> auto& d) {
     v("name", d.name), v("positions", Bulk{d.positions}), v("triangles", Bulk{d.triangles}), v("slots", Bulk{d.slots});
     v("corner_normals", Bulk{d.corner_normals}), v("attributes", d.attributes), v("active_uv", d.active_uv);
     v("active_color", d.active_color), v("generated_min", d.generated_min), v("generated_size", d.generated_size);
+    v("edges", Bulk{d.edges});
 }
 
 template <class V>

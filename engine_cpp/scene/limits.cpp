@@ -38,8 +38,8 @@ std::int64_t bytes(const std::vector<T>& values) {
 }
 
 std::int64_t mesh_bytes(const MeshDesc& mesh) {
-    std::int64_t arrays =
-        bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.slots) + bytes(mesh.corner_normals);
+    std::int64_t arrays = bytes(mesh.positions) + bytes(mesh.triangles) + bytes(mesh.slots) +
+                          bytes(mesh.corner_normals) + bytes(mesh.edges);
     for (const AttributeDesc& attribute : mesh.attributes) arrays += bytes(attribute.data);
     // The description stays alive beside the built tables.
     return 2 * arrays + static_cast<std::int64_t>(mesh.triangles.size() / 3) * k_tree_bytes_per_triangle;

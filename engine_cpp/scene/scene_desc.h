@@ -38,13 +38,14 @@ struct AttributeDesc {
 
 struct MeshDesc {
     std::string name;
-    std::vector<float> positions;                            ///< xyz per vertex, object space
-    std::vector<std::uint32_t> triangles;                    ///< three vertex indices each
-    std::vector<std::int32_t> slots;                         ///< material slot per triangle; empty: all 0
-    std::vector<float> corner_normals;                       ///< xyz per corner; empty: flat shading
-    std::vector<AttributeDesc> attributes;                   ///< UV maps (2 channels), colours (4), …
-    std::string active_uv;                                   ///< render-active UV map, may be empty
-    std::string active_color;                                ///< render-active colour attribute, may be empty
+    std::vector<float> positions;           ///< xyz per vertex, object space
+    std::vector<std::uint32_t> triangles;   ///< three vertex indices each
+    std::vector<std::int32_t> slots;        ///< material slot per triangle; empty: all 0
+    std::vector<float> corner_normals;      ///< xyz per corner; empty: flat shading
+    std::vector<std::uint32_t> edges;       ///< two vertices each, in the host's order; empty: triangles' sides
+    std::vector<AttributeDesc> attributes;  ///< UV maps (2 channels), colours (4), …
+    std::string active_uv;                  ///< render-active UV map, may be empty
+    std::string active_color;               ///< render-active colour attribute, may be empty
     Float3 generated_min{0, 0, 0}, generated_size{1, 1, 1};  ///< texture space box for Generated coordinates
 };
 

@@ -63,7 +63,23 @@ private:
             problems_.warn(who, "has a colour or instance coordinate that is not finite; 0 is used");
             *value = 0;
         }
+        check_values(instance, who);
         return true;
+    }
+
+    void check_values(InstanceDesc& instance, const std::string& who) {
+        std::erase_if(instance.values, [&](const InstanceValueDesc& v) {
+            if (!v.name.empty()) return false;
+            problems_.warn(who, "has a value without a name; ignored");
+            return true;
+        });
+        for (InstanceValueDesc& v : instance.values) {
+            for (float& number : v.value) {
+                if (finite(number)) continue;
+                problems_.warn(who, "has a value \"" + v.name + "\" that is not finite; 0 is used");
+                number = 0;
+            }
+        }
     }
 
     bool refers(const InstanceDesc& instance, const std::string& who) {

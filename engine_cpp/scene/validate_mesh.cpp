@@ -19,6 +19,7 @@ void empty_mesh(MeshDesc& mesh) {
     mesh.triangles.clear();
     mesh.slots.clear();
     mesh.corner_normals.clear();
+    mesh.edges.clear();
     mesh.attributes.clear();
 }
 
@@ -42,6 +43,13 @@ void check_sizes(MeshDesc& mesh, const std::string& who, ProblemList& problems) 
     };
     check(mesh.slots, mesh.triangles.size() / 3, "material slots");
     check(mesh.corner_normals, mesh.triangles.size() * 3, "values of normals");
+    const std::size_t vertices = mesh.positions.size() / 3;
+    const bool edges_fit = mesh.edges.size() % 2 == 0 && std::all_of(mesh.edges.begin(), mesh.edges.end(),
+                                                                     [&](std::uint32_t v) { return v < vertices; });
+    if (!edges_fit) {
+        problems.warn(who, "has edges that are not pairs of its vertices; ignored");
+        mesh.edges.clear();
+    }
     std::erase_if(mesh.attributes, [&](const AttributeDesc& a) {
         const std::size_t channels = a.channels >= 1 && a.channels <= 4 ? static_cast<std::size_t>(a.channels) : 0;
         const std::size_t expected = elements(mesh, a.domain) * channels;

@@ -2,10 +2,13 @@
 #include "trace/geometry_pool.h"
 
 #include "nodes/compile.h"
+#include "trace/mesh_attributes.h"
 #include "trace/octahedral.h"
 
 #include <algorithm>
 #include <cstring>
+#include <string_view>
+#include <unordered_map>
 
 namespace cardioid::trace {
 
@@ -24,29 +27,31 @@ const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const st
 }
 }  // namespace
 
-GeometryPool::GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names,
-                           int default_material) {
+GeometryPool::GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material) {
     flatten(desc);
     copy_meshes(desc);
-    copy_attributes(desc, attribute_names);
+    copy_attributes(desc, names.attributes);
     make_instances(desc, default_material);
+    collect_values(names.instance_values);
 }
 
 void GeometryPool::flatten(const scene::SceneDesc& desc) {
     placed_.reserve(desc.instances.size());
-    for (const auto& i : desc.instances) place(desc, i, Affine{}, scene::visible_all, 0);
+    for (const auto& i : desc.instances) place(desc, i, PlacedMesh{}, 0);
 }
 
-void GeometryPool::place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent,
-                         std::uint8_t visibility, int depth) {
-    const Affine transform = depth == 0 ? instance.transform : parent * instance.transform;
-    const auto visible = static_cast<std::uint8_t>(visibility & instance.visibility);
+void GeometryPool::place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const PlacedMesh& parent,
+                         int depth) {
+    PlacedMesh here{&instance, depth == 0 ? instance.transform : parent.transform * instance.transform,
+                    static_cast<std::uint8_t>(parent.visibility & instance.visibility), parent.group};
     if (instance.mesh >= 0) {
-        if (!desc.meshes[instance.mesh].triangles.empty()) placed_.push_back({&instance, transform, visible});
+        if (!desc.meshes[instance.mesh].triangles.empty()) placed_.push_back(here);
         return;
     }
     if (instance.group < 0 || depth >= k_max_group_depth) return;
-    for (const auto& child : desc.groups[instance.group].instances) place(desc, child, transform, visible, depth + 1);
+    groups_.push_back({&instance, parent.group});
+    here.group = static_cast<std::int32_t>(groups_.size()) - 1;
+    for (const auto& child : desc.groups[instance.group].instances) place(desc, child, here, depth + 1);
 }
 
 void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
@@ -119,20 +124,50 @@ void GeometryPool::copy_attributes(const scene::SceneDesc& desc, const std::vect
     floats_.assign(4, 0.0f);
     for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
         if (!ranges_[m].used) continue;
-        for (std::size_t a = 0; a < names.size(); ++a) {
-            const scene::AttributeDesc* found = find_attribute(desc.meshes[m], names[a]);
-            if (!found) continue;
-            nodes::AttributeRef& ref = attributes_[m * names.size() + a];
-            ref.offset = static_cast<std::uint32_t>(floats_.size());
-            ref.domain = static_cast<std::uint8_t>(found->domain);
-            ref.channels = static_cast<std::uint8_t>(found->channels);
-            floats_.insert(floats_.end(), found->data.begin(), found->data.end());
-        }
+        for (std::size_t a = 0; a < names.size(); ++a)
+            add_attribute(desc.meshes[m], names[a], attributes_[m * names.size() + a]);
     }
     mesh_infos_.resize(std::max<std::size_t>(1, desc.meshes.size()));
     for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
         mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, desc.meshes[m].generated_min,
                           desc.meshes[m].generated_size};
+    }
+}
+
+void GeometryPool::add_attribute(const scene::MeshDesc& mesh, const std::string& name, nodes::AttributeRef& ref) {
+    const auto add = [&](scene::Domain domain, int channels, const std::vector<float>& data) {
+        ref.offset = static_cast<std::uint32_t>(floats_.size());
+        ref.domain = static_cast<std::uint8_t>(domain);
+        ref.channels = static_cast<std::uint8_t>(channels);
+        floats_.insert(floats_.end(), data.begin(), data.end());
+    };
+    if (const scene::AttributeDesc* found = find_attribute(mesh, name)) {
+        add(found->domain, found->channels, found->data);
+    } else if (name == nodes::k_random_island) {
+        add(scene::Domain::face, 1, random_per_island(mesh));
+    } else if (name == nodes::k_pointiness) {
+        add(scene::Domain::point, 1, pointiness(mesh));
+    }
+}
+
+/// Groups first, from the outermost in, so that the inner instance's own values stay.
+void GeometryPool::collect_values(const std::vector<std::string>& names) {
+    instance_value_names_ = static_cast<int>(names.size());
+    instance_values_.assign(std::max<std::size_t>(1, infos_.size() * names.size()) * 4, 0.0f);
+    if (names.empty()) return;
+    std::unordered_map<std::string_view, std::size_t> ids;
+    for (std::size_t k = 0; k < names.size(); ++k) ids.emplace(names[k], k);
+    std::vector<const scene::InstanceDesc*> chain;
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+        chain.assign(1, placed_[i].desc);
+        for (std::int32_t g = placed_[i].group; g >= 0; g = groups_[g].outer) chain.push_back(groups_[g].desc);
+        for (auto desc = chain.rbegin(); desc != chain.rend(); ++desc) {
+            for (const scene::InstanceValueDesc& v : (*desc)->values) {
+                const auto id = ids.find(v.name);
+                if (id == ids.end()) continue;
+                std::copy(v.value.begin(), v.value.end(), &instance_values_[4 * (i * names.size() + id->second)]);
+            }
+        }
     }
 }
 
@@ -227,6 +262,7 @@ void GeometryPool::fill(SceneView& view) const {
     g.attribute_names = attribute_names_;
     g.instances = infos_.data();
     g.meshes = mesh_infos_.data();
+    g.instance_values = {instance_values_.data(), instance_value_names_};
     view.instances = {mesh_.data(),    first_triangle_.data(), first_vertex_.data(), smooth_.data(),
                       baked_.data(),   flip_.data(),           slot_mask_.data(),    first_material_.data(),
                       holdout_.data(), visibility_.data()};
@@ -239,8 +275,8 @@ void GeometryPool::fill(SceneView& view) const {
 std::int64_t GeometryPool::memory_bytes() const {
     return static_cast<std::int64_t>(positions_.capacity() * 4 + triangles_.capacity() * 4 +
                                      packed_normals_.capacity() * 4 + slots_.capacity() * 4 + floats_.capacity() * 4 +
-                                     infos_.capacity() * sizeof(nodes::InstanceInfo) + mesh_.capacity() * 10 * 4 +
-                                     slot_materials_.capacity() * 4);
+                                     instance_values_.capacity() * 4 + infos_.capacity() * sizeof(nodes::InstanceInfo) +
+                                     mesh_.capacity() * 10 * 4 + slot_materials_.capacity() * 4);
 }
 
 }  // namespace cardioid::trace

@@ -16,12 +16,18 @@ struct PlacedMesh {
     const scene::InstanceDesc* desc = nullptr;
     Affine transform;
     std::uint8_t visibility = scene::visible_all;
+    std::int32_t group = -1;  ///< the placed group that it stands in, of GeometryPool's list; -1: none
+};
+
+/// What programs read by name: the index is the id.
+struct PoolNames {
+    std::vector<std::string> attributes, instance_values;
 };
 
 class GeometryPool {
 public:
-    /// `default_material`: id for empty slots. `attribute_names`: those that programs read, by name id.
-    GeometryPool(const scene::SceneDesc& desc, const std::vector<std::string>& attribute_names, int default_material);
+    /// `default_material`: id for empty slots.
+    GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material);
 
     void fill(SceneView& view) const;
     std::int64_t memory_bytes() const;
@@ -47,13 +53,20 @@ public:
 
 private:
     void flatten(const scene::SceneDesc& desc);
-    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const Affine& parent,
-               std::uint8_t visibility, int depth);
+    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const PlacedMesh& parent, int depth);
     void copy_meshes(const scene::SceneDesc& desc);
     void copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names);
+    void add_attribute(const scene::MeshDesc& mesh, const std::string& name, nodes::AttributeRef& ref);
+    void collect_values(const std::vector<std::string>& names);
     void make_instances(const scene::SceneDesc& desc, int default_material);
 
+    struct PlacedGroup {
+        const scene::InstanceDesc* desc;
+        std::int32_t outer;
+    };
+
     std::vector<PlacedMesh> placed_;
+    std::vector<PlacedGroup> groups_;
     std::vector<MeshRange> ranges_;
     std::vector<float> positions_;
     std::vector<std::uint32_t> triangles_;
@@ -66,7 +79,8 @@ private:
     std::vector<nodes::MeshInfo> mesh_infos_;
     std::vector<std::int32_t> mesh_, first_triangle_, first_vertex_, smooth_, baked_, flip_, slot_mask_,
         first_material_, holdout_, visibility_;
-    int attribute_names_ = 0;
+    std::vector<float> instance_values_;
+    int attribute_names_ = 0, instance_value_names_ = 0;
     bool any_holdout_ = false;
 };
 

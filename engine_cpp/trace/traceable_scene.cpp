@@ -54,7 +54,7 @@ struct TraceableScene::Impl {
     SceneView view;
     BuildStats stats;
     nodes::Warnings warnings;
-    std::vector<std::string> attribute_names, instance_value_names;
+    PoolNames names;
     std::unique_ptr<image::ImageStore> images;
     std::vector<nodes::CompiledGraph> graphs;  // materials, default grey, lamps, world: SceneView::materials' ids
     std::vector<bool> use_transparent_shadow;
@@ -129,18 +129,19 @@ std::vector<std::string> TraceableScene::warnings() const {
 
 void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
     const auto compile = [&](const std::string& name, nodes::GraphKind kind, const scene::GraphDesc& graph,
-                             Float3 fallback) {
+                             Float3 fallback, scene::DisplacementMethod displacement = {}) {
         nodes::CompileContext context;
         context.name = name;
         context.kind = kind;
-        context.attribute_names = &attribute_names;
-        context.instance_value_names = &instance_value_names;
+        context.attribute_names = &names.attributes;
+        context.instance_value_names = &names.instance_values;
+        context.displacement_method = displacement;
         context.images = images.get();
         context.fallback_color = fallback;
         graphs.push_back(nodes::compile(graph, context, warnings));
     };
     for (const auto& m : desc.materials) {
-        compile(m.name, nodes::GraphKind::material, m.graph, m.viewport_color);
+        compile(m.name, nodes::GraphKind::material, m.graph, m.viewport_color, m.displacement_method);
         use_transparent_shadow.push_back(m.use_transparent_shadow);
     }
     compile("default", nodes::GraphKind::material, {}, {0.8f, 0.8f, 0.8f});
@@ -176,15 +177,18 @@ void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
 void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress) {
     {
         const Stopwatch watch(stats.geometry_seconds);
-        pool = std::make_unique<GeometryPool>(desc, attribute_names, default_material());
+        pool = std::make_unique<GeometryPool>(desc, names, default_material());
         pool->fill(view);
     }
     if (progress("Building the ray tracing tree")) throw BuildCancelled{};
     const Stopwatch watch(stats.bvh_seconds);
     const auto has_transparency = [&](int instance) {
         const auto ids = pool->materials_of(instance);
-        return std::any_of(ids.begin(), ids.end(),
-                           [&](int id) { return materials[id].info.has_transparency && use_transparent_shadow[id]; });
+        // A medium's surface is asked whatever the setting says, as in Cycles: light enters it.
+        return std::any_of(ids.begin(), ids.end(), [&](int id) {
+            const nodes::ProgramInfo& info = materials[id].info;
+            return info.has_transparency && (use_transparent_shadow[id] || info.has_volume);
+        });
     };
     const auto keep_going = [&] { return !progress("Building the ray tracing tree"); };
     embree = std::make_unique<EmbreeScene>(*pool, desc.settings.robust_intersection, has_transparency, keep_going);
@@ -194,7 +198,10 @@ void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const Bu
     for (std::size_t i = 0; i < placed.size(); ++i) {
         stats.triangles += pool->meshes()[placed[i].desc->mesh].triangles;
         view.has_transparent_shadows = view.has_transparent_shadows || has_transparency(static_cast<int>(i));
+        for (const int id : pool->materials_of(static_cast<int>(i)))
+            view.has_volumes = view.has_volumes || materials[id].info.has_volume;
     }
+    view.has_volumes = view.has_volumes || materials[view.world_program].info.has_volume;
     for (const auto& r : pool->meshes()) stats.unique_triangles += r.used ? r.triangles : 0;
     stats.instances = static_cast<std::int64_t>(placed.size());
     stats.embree_bytes = embree->memory_bytes();

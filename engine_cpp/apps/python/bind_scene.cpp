@@ -77,7 +77,7 @@ scene::AttributeDesc read_attribute(const py::handle& item, const std::string& m
 int add_mesh(PyScene& s, const std::string& name, const py::object& positions, const py::object& triangles,
              const py::object& slots, const py::object& corner_normals, const py::iterable& attributes,
              const std::string& active_uv, const std::string& active_color, const std::array<float, 3>& generated_min,
-             const std::array<float, 3>& generated_size) {
+             const std::array<float, 3>& generated_size, const py::object& edges) {
     const std::string what = "mesh '" + name + "'";
     scene::MeshDesc m;
     m.name = name;
@@ -92,6 +92,8 @@ int add_mesh(PyScene& s, const std::string& name, const py::object& positions, c
     m.active_color = active_color;
     m.generated_min = {generated_min[0], generated_min[1], generated_min[2]};
     m.generated_size = {generated_size[0], generated_size[1], generated_size[2]};
+    const auto pairs = int_array(edges, {-1, 2}, what + ": edges");
+    m.edges.assign(pairs.begin(), pairs.end());
     s.edit().meshes.push_back(std::move(m));
     return last_index(s.edit().meshes.size());
 }
@@ -127,7 +129,7 @@ void bind_scene(py::module_& m) {
              py::arg("slots") = py::none(), py::arg("corner_normals") = py::none(), py::arg("attributes") = py::list(),
              py::arg("active_uv") = "", py::arg("active_color") = "",
              py::arg("generated_min") = std::array<float, 3>{0, 0, 0},
-             py::arg("generated_size") = std::array<float, 3>{1, 1, 1})
+             py::arg("generated_size") = std::array<float, 3>{1, 1, 1}, py::arg("edges") = py::none())
         .def(
             "add_group",
             [](PyScene& s, const std::string& name) {

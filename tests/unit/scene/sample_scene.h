@@ -33,6 +33,7 @@ inline MeshDesc sample_mesh() {
     mesh.attributes = {{"UVMap", Domain::corner, 2, {0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1}},
                        {"Col", Domain::point, 4, std::vector<float>(16, 0.5f)},
                        {"id", Domain::face, 1, {1, 2}}};
+    mesh.edges = {0, 1, 1, 2, 2, 3, 3, 0};
     mesh.active_uv = "UVMap";
     mesh.active_color = "Col";
     mesh.generated_min = {-1, -2, -3};

@@ -142,7 +142,7 @@ TEST(GeometryPool, AttributesByName) {
     desc.meshes[0].attributes = {{"other", scene::Domain::face, 1, {8, 9}},
                                  {"map", scene::Domain::corner, 2, std::vector<float>(12, 0.5f)}};
     desc.instances = {placed(0, Affine{}), placed(1, Affine{})};
-    const GeometryPool pool(desc, {"map", "other", "missing"}, k_default);
+    const GeometryPool pool(desc, {{"map", "other", "missing"}, {}}, k_default);
     trace::SceneView view;
     pool.fill(view);
     ASSERT_EQ(view.geometry.attribute_names, 3);
@@ -154,6 +154,56 @@ TEST(GeometryPool, AttributesByName) {
     EXPECT_EQ(view.geometry.floats[other.offset + 1], 9.0f);
     EXPECT_EQ(view.geometry.attributes[2].channels, 0);
     EXPECT_EQ(view.geometry.attributes[3].channels, 0) << "of the mesh without attributes";
+}
+
+scene::InstanceDesc with_values(scene::InstanceDesc instance, std::vector<scene::InstanceValueDesc> values) {
+    instance.values = std::move(values);
+    return instance;
+}
+
+TEST(GeometryPool, ValuesByNameAreTheInnerInstancesOrElseTheGroups) {
+    SceneDesc desc;
+    desc.meshes = {square()};
+    desc.groups.resize(2);
+    desc.groups[0].instances = {with_values(placed(0, Affine{}), {{"object:a", {1, 1, 1, 1}}})};
+    desc.groups[1].instances = {with_values(placed_group(0, Affine{}), {{"object:b", {2, 3, 4, 1}}})};
+    desc.instances = {with_values(placed_group(1, Affine{}),
+                                  {{"object:a", {9, 9, 9, 1}}, {"object:b", {9, 9, 9, 1}}, {"c", {5, 5, 5, 1}}}),
+                      with_values(placed(0, Affine{}), {{"unread", {7, 7, 7, 1}}, {"c", {6, 6, 6, 1}}})};
+    const GeometryPool pool(desc, {{}, {"object:a", "object:b", "c", "missing"}}, k_default);
+    trace::SceneView view;
+    pool.fill(view);
+    const nodes::InstanceValues& values = view.geometry.instance_values;
+    ASSERT_EQ(values.names, 4);
+    const auto row = [&](int instance, int name) {
+        const float* r = values.rows + 4 * (instance * values.names + name);
+        return std::array<float, 4>{r[0], r[1], r[2], r[3]};
+    };
+    using Value = std::array<float, 4>;
+    EXPECT_EQ(row(0, 0), (Value{1, 1, 1, 1}));
+    EXPECT_EQ(row(0, 1), (Value{2, 3, 4, 1}));
+    EXPECT_EQ(row(0, 2), (Value{5, 5, 5, 1}));
+    EXPECT_EQ(row(1, 0), (Value{0, 0, 0, 0}));
+    EXPECT_EQ(row(1, 2), (Value{6, 6, 6, 1}));
+    EXPECT_EQ(row(1, 3), (Value{0, 0, 0, 0}));
+}
+
+TEST(GeometryPool, AttributesThatFollowFromTheShapeAreMadeOnlyWhenNamed) {
+    SceneDesc desc;
+    desc.meshes = {square()};
+    desc.instances = {placed(0, Affine{})};
+    const GeometryPool plain(desc, {}, k_default);
+    const GeometryPool pool(desc, {{"#random_island", "#pointiness"}, {}}, k_default);
+    EXPECT_LT(plain.memory_bytes(), pool.memory_bytes());
+    trace::SceneView view;
+    pool.fill(view);
+    const auto& island = view.geometry.attributes[0];
+    const auto& point = view.geometry.attributes[1];
+    EXPECT_EQ(island.domain, static_cast<int>(scene::Domain::face));
+    EXPECT_EQ(island.channels, 1);
+    EXPECT_EQ(view.geometry.floats[island.offset], view.geometry.floats[island.offset + 1]);
+    EXPECT_EQ(point.domain, static_cast<int>(scene::Domain::point));
+    EXPECT_NEAR(view.geometry.floats[point.offset], 0.5f, 1e-6f);
 }
 
 }  // namespace
