@@ -37,8 +37,7 @@ bool reads_triangle(const Program& p) {
         return row >= static_cast<int>(ChunkRow::barycentric_u) && row < static_cast<int>(ChunkRow::footprint);
     };
     return uses(p, Op::attribute) || uses(p, Op::uv_tangent) || uses(p, Op::barycentric_step) ||
-           uses(p, Op::wireframe) ||
-           std::any_of(p.args.begin(), p.args.end(), frame);
+           uses(p, Op::wireframe) || std::any_of(p.args.begin(), p.args.end(), frame);
 }
 
 /// Sum of the operands of every `op`, when it is all that the program holds and is constant.
@@ -104,9 +103,8 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.has_bump = uses(surface, Op::surface_step);
     info.own_normals = makes_normals(surface);
     info.needs_triangle_frame = reads_triangle(surface);
-    info.needs_instance =
-        uses(surface, Op::instance_value) || uses(surface, Op::named_value) || uses(surface, Op::transform) ||
-        uses(surface, Op::uv_tangent);
+    info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::named_value) ||
+                          uses(surface, Op::transform) || uses(surface, Op::uv_tangent);
     for (const Instruction& in : surface.code)
         info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
                       in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;

@@ -12,9 +12,7 @@ inline Ref3 instance3(NodeContext& c, InstanceValue value) {
     return rows3(c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(value)));
 }
 
-inline Ref ray_value(NodeContext& c, RayValue v) {
-    return c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v));
-}
+inline Ref ray_value(NodeContext& c, RayValue v) { return c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v)); }
 
 /// Object space to world space.
 inline Ref3 to_world(NodeContext& c, Ref3 v, Quantity quantity) {

@@ -10,8 +10,6 @@ Ref3 transformed(NodeContext& c, Ref3 v, Space space, Quantity quantity, Directi
     return c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space, quantity, direction));
 }
 
-Ref3 rows3(const Results& r) { return {r[0], r[1], r[2]}; }
-
 void rgb(NodeContext& c) {
     const std::vector<double> v = c.list("value");
     const auto at = [&](std::size_t k) { return k < v.size() ? static_cast<float>(v[k]) : 0.0f; };
@@ -19,10 +17,6 @@ void rgb(NodeContext& c) {
 }
 
 void value(NodeContext& c) { c.number_out("Value", c.b.constant(static_cast<float>(c.property("value")))); }
-
-Ref3 instance3(NodeContext& c, InstanceValue value) {
-    return rows3(c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(value)));
-}
 
 /// Coordinates of another object: the inverse of its matrix, a parameter.
 Ref3 in_object_space(NodeContext& c) {
@@ -65,13 +59,23 @@ void uv_map(NodeContext& c) {
         }());
 }
 
-void attribute(NodeContext& c) {
-    const std::string kind = c.text("attribute_type", "GEOMETRY");
-    if (kind != "GEOMETRY")
-        c.warn("attribute " + kind, c.place() + ": attributes of type " + kind + " are not supported; they are 0");
-    const std::string name = kind == "GEOMETRY" ? c.text("attribute_name") : "";
+/// What an Attribute node of any type reads: x, y, z, w.
+Results attribute_rows(NodeContext& c) {
+    const std::string kind = c.text("attribute_type", "GEOMETRY"), name = c.text("attribute_name");
     const Ref zero = c.b.constant(0);
-    const Results r = name.empty() ? Results{zero, zero, zero, c.b.constant(1)} : c.attribute(name);
+    if (kind == "OBJECT") return c.instance_value("object:" + name);
+    if (kind == "INSTANCER") return c.instance_value("instancer:" + name);
+    if (kind == "VIEW_LAYER") {
+        const std::vector<double> v = c.list("value");
+        Results r{};
+        for (std::size_t k = 0; k < 4; ++k) r[k] = c.b.constant(k < v.size() ? static_cast<float>(v[k]) : 0.0f);
+        return r;
+    }
+    return name.empty() ? Results{zero, zero, zero, c.b.constant(1)} : c.attribute(name);
+}
+
+void attribute(NodeContext& c) {
+    const Results r = attribute_rows(c);
     c.color_out("Color", rows3(r));
     c.vector_out("Vector", rows3(r));
     c.number_out("Fac", c.b.average(rows3(r)));
@@ -80,7 +84,7 @@ void attribute(NodeContext& c) {
 
 void color_attribute(NodeContext& c) {
     const std::string name = c.text("layer_name");
-    const Results r = c.attribute(name.empty() ? k_active_color : name);
+    const Results r = c.attribute(name.empty() ? k_active_color : name, attribute_missing_clear);
     c.color_out("Color", rows3(r));
     c.number_out("Alpha", r[3]);
 }
@@ -94,48 +98,8 @@ void geometry(NodeContext& c) {
     c.vector_out("Incoming", c.b.chunk3(ChunkRow::wo));
     c.vector_out("Parametric", {c.b.subtract(c.b.subtract(one, u), v), u, zero});
     c.number_out("Backfacing", c.b.chunk(ChunkRow::backfacing));
-    c.number_out("Pointiness", c.b.constant(0.5f));
-    c.number_out("Random Per Island", zero);
-}
-
-void object_info(NodeContext& c) {
-    const Results color = c.b.emit_all(Op::instance_value, {}, static_cast<std::uint32_t>(InstanceValue::color));
-    c.vector_out("Location", instance3(c, InstanceValue::location));
-    c.color_out("Color", rows3(color));
-    c.number_out("Alpha", color[3]);
-    c.number_out("Object Index", instance3(c, InstanceValue::pass_index).x);
-    c.number_out("Material Index", instance3(c, InstanceValue::material_index).x);
-    c.number_out("Random", instance3(c, InstanceValue::random).x);
-}
-
-void light_path(NodeContext& c) {
-    const auto out = [&](const char* id, RayValue v) {
-        c.number_out(id, c.b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(v)));
-    };
-    out("Is Camera Ray", RayValue::is_camera);
-    out("Is Shadow Ray", RayValue::is_shadow);
-    out("Is Diffuse Ray", RayValue::is_diffuse);
-    out("Is Glossy Ray", RayValue::is_glossy);
-    out("Is Singular Ray", RayValue::is_singular);
-    out("Is Reflection Ray", RayValue::is_reflection);
-    out("Is Transmission Ray", RayValue::is_transmission);
-    out("Is Volume Scatter Ray", RayValue::is_volume);
-    out("Ray Length", RayValue::length);
-    out("Ray Depth", RayValue::depth);
-    out("Diffuse Depth", RayValue::diffuse_depth);
-    out("Glossy Depth", RayValue::glossy_depth);
-    out("Transparent Depth", RayValue::transparent_depth);
-    out("Transmission Depth", RayValue::transmission_depth);
-    c.number_out("Portal Depth", c.b.constant(0));
-}
-
-void camera_data(NodeContext& c) {
-    const Ref3 p =
-        transformed(c, c.position(), Space::camera, c.kind() == GraphKind::world ? Quantity::vector : Quantity::point,
-                    Direction::from_world);
-    c.vector_out("View Vector", c.b.normalize(p));
-    c.number_out("View Z Depth", p.z);
-    c.number_out("View Distance", c.b.length(p));
+    c.number_out("Pointiness", c.attribute(k_pointiness)[0]);
+    c.number_out("Random Per Island", c.attribute(k_random_island)[0]);
 }
 
 Ref facing_cosine(NodeContext& c) { return c.b.dot(c.b.chunk3(ChunkRow::wo), c.vector_or("Normal", c.normal())); }
@@ -158,18 +122,6 @@ void layer_weight(NodeContext& c) {
     c.number_out("Facing", b.one_minus(b.is(blend, 0.5f) ? f : b.emit(Op::power, {f, exponent})));
 }
 
-void light_falloff(NodeContext& c) {
-    Builder& b = c.b;
-    const Ref length = b.emit(Op::ray_value, {}, static_cast<std::uint32_t>(RayValue::length));
-    const Ref squared = b.multiply(length, length), smooth = c.number("Smooth", 0);
-    // 1 without smoothing; distant lamps have an endless ray.
-    const Ref softened = b.select_positive(smooth, b.divide(squared, b.add(smooth, squared)), b.constant(1));
-    const Ref strength = b.multiply(c.number("Strength", 100), b.is(smooth, 0) ? b.constant(1) : softened);
-    c.number_out("Quadratic", strength);
-    c.number_out("Linear", b.multiply(strength, length));
-    c.number_out("Constant", b.multiply(strength, squared));
-}
-
 void ambient_occlusion(NodeContext& c) {
     c.color_out("Color", c.color("Color", {1, 1, 1}));
     c.number_out("AO", c.b.constant(1));
@@ -183,16 +135,11 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeTexCoord", texture_coordinate, nullptr, Support::same,
      "Generated is the texture space box of the mesh"},
     {"ShaderNodeUVMap", uv_map, nullptr, Support::same, ""},
-    {"ShaderNodeAttribute", attribute, nullptr, Support::approximated,
-     "attributes of the geometry; those of objects and view layers are 0"},
+    {"ShaderNodeAttribute", attribute, nullptr, Support::same, ""},
     {"ShaderNodeVertexColor", color_attribute, nullptr, Support::same, ""},
-    {"ShaderNodeNewGeometry", geometry, nullptr, Support::approximated, "Pointiness is 0.5, Random Per Island is 0"},
-    {"ShaderNodeObjectInfo", object_info, nullptr, Support::same, ""},
-    {"ShaderNodeLightPath", light_path, nullptr, Support::same, ""},
-    {"ShaderNodeCameraData", camera_data, nullptr, Support::same, ""},
+    {"ShaderNodeNewGeometry", geometry, nullptr, Support::same, ""},
     {"ShaderNodeFresnel", fresnel_node, nullptr, Support::same, ""},
     {"ShaderNodeLayerWeight", layer_weight, nullptr, Support::same, ""},
-    {"ShaderNodeLightFalloff", light_falloff, nullptr, Support::same, ""},
     {"ShaderNodeAmbientOcclusion", ambient_occlusion, nullptr, Support::approximated, "nothing is occluded: AO is 1"},
     {"ShaderNodeBevel", bevel, nullptr, Support::approximated, "gives the normal without a bevel"},
 };

@@ -199,6 +199,21 @@ void displacement(NodeContext& c) {
     c.vector_out("Displacement", transformed(c, moved, Quantity::vector, Direction::to_world));
 }
 
+void vector_displacement(NodeContext& c) {
+    Builder& b = c.b;
+    const Ref midlevel = c.number("Midlevel", 0), scale = c.number("Scale", 1);
+    const std::string space = c.text("space", "TANGENT");
+    Ref3 d = Builder::each(c.color("Vector"), [&](Ref x) { return b.multiply(b.subtract(x, midlevel), scale); });
+    if (space == "TANGENT") {
+        const Ref3 n = transformed(c, c.normal(), Quantity::normal, Direction::from_world);
+        const Results t = uv_tangent(c, "", n);
+        const Ref3 along = {t[0], t[1], t[2]};
+        const Ref3 across = b.multiply(b.normalize(b.cross(n, along)), t[3]);
+        d = b.add(b.add(b.multiply(along, d.x), b.multiply(n, d.y)), b.multiply(across, d.z));
+    }
+    c.vector_out("Displacement", space == "WORLD" ? d : transformed(c, d, Quantity::vector, Direction::to_world));
+}
+
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeMapping", mapping, nullptr, Support::same, ""},
     {"ShaderNodeVectorRotate", vector_rotate, nullptr, Support::same, ""},
@@ -209,8 +224,8 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeBump", bump, nullptr, Support::approximated,
      "the step is a pixel's width at the point; no filter width"},
     {"ShaderNodeTangent", tangent, nullptr, Support::approximated, "UV tangents are those of the triangle"},
-    {"ShaderNodeDisplacement", displacement, nullptr, Support::approximated,
-     "as bump mapping: the surface does not move"},
+    {"ShaderNodeDisplacement", displacement, nullptr, Support::same, ""},
+    {"ShaderNodeVectorDisplacement", vector_displacement, nullptr, Support::same, ""},
 };
 
 }  // namespace

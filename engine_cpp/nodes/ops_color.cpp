@@ -156,4 +156,27 @@ void op_blackbody(const Machine& m, const Instruction& in) {
     });
 }
 
+/// XYZ of a spectral line as linear Rec.709 without negative channels, scaled so that none is above 1.
+void op_wavelength(const Machine& m, const Instruction& in) {
+    constexpr int k_last = 80;
+    const float* data = m.view.data + in.data;
+    const Source nm = m.arg(in, 0);
+    for (int i = 0; i < m.end; i += W) {
+        const Float place = (nm.at(i) - 380.0f) * 0.2f;
+        const Mask inside = (place > Float(-1.0f)) & (place < Float(float(k_last)));
+        const Int cell = to_int(select(inside, truncate(place), Float(0.0f)));
+        const Float t = place - to_float(cell);
+        const auto c = [&](int k) {
+            return mix(gather(data + k, cell * Int(3)), gather(data + k + 3, cell * Int(3)), t);
+        };
+        const Float x = c(0), y = c(1), z = c(2), zero(0.0f);
+        const auto channel = [&](float a, float b, float d) {
+            return select(inside, max((a * x + b * y + d * z) * (1.0f / 2.52f), zero), zero);
+        };
+        store_vec(m, in, 0, i,
+                  {channel(3.2404542f, -1.5371385f, -0.4985314f), channel(-0.9692660f, 1.8760108f, 0.0415560f),
+                   channel(0.0556434f, -0.2040259f, 1.0572252f)});
+    }
+}
+
 }  // namespace cardioid::CD_ISA_NS

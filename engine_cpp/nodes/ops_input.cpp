@@ -85,14 +85,15 @@ void op_attribute(const Machine& m, const Instruction& in) {
     const Source u = m.arg(in, 0), v = m.arg(in, 1);
     for (int i = 0; i < m.end; i += W) {
         const AttributeView a(m.chunk, i, static_cast<int>(in.imm), 1);
+        const Float missing = in.data == nodes::attribute_missing_clear ? 0.0f : 1.0f;
         if (none(a.have)) {
-            store4(m, in, i, {0.0f, 0.0f, 0.0f}, 1.0f);
+            store4(m, in, i, {0.0f, 0.0f, 0.0f}, missing);
             continue;
         }
         const Float s = u.at(i), t = v.at(i);
         const Mask single = a.channels == Int(1), many = a.channels >= Int(3), four = a.channels == Int(4);
         const Float x = a.at(Int(0), s, t), y = a.at(select(a.channels > Int(1), Int(1), Int(0)), s, t);
-        Float z = select(single, x, Float(0.0f)), w = 1.0f;
+        Float z = select(single, x, Float(0.0f)), w = select(a.have, Float(1.0f), missing);
         if (any(many)) z = select(many, a.at(select(many, Int(2), Int(0)), s, t), z);
         if (any(four)) w = select(four, a.at(select(four, Int(3), Int(0)), s, t), w);
         store4(m, in, i, {select(a.have, x, 0.0f), select(a.have, y, 0.0f), select(a.have, z, 0.0f)}, w);
@@ -186,13 +187,20 @@ void op_transform(const Machine& m, const Instruction& in) {
     }
 }
 
+namespace {
+
 /// Cycles' frame about the geometric normal, so that bump mapping sees the same points.
+Vec3 frame_axis(Vec3 n) {
+    const Mask same = (n.x == n.y) & (n.x == n.z);
+    return normalize(Vec3{n.z - n.y, select(same, n.x + n.z, n.x - n.z), select(same, -n.y - n.x, n.y - n.x)});
+}
+
+}  // namespace
+
 void op_surface_step(const Machine& m, const Instruction& in) {
     for (int i = 0; i < m.end; i += W) {
         const Vec3 n = load3(m.chunk.normal_geometric, i);
-        const Mask same = (n.x == n.y) & (n.x == n.z);
-        const Vec3 a =
-            normalize(Vec3{n.z - n.y, select(same, n.x + n.z, n.x - n.z), select(same, -n.y - n.x, n.y - n.x)});
+        const Vec3 a = frame_axis(n);
         store_vec(m, in, 0, i, (in.imm == 0 ? a : cross(n, a)) * load(m.chunk.footprint + i));
     }
 }
@@ -247,6 +255,49 @@ void op_uv_tangent(const Machine& m, const Instruction& in) {
         const Mask ok = uv.have & (det != Float(0.0f));
         store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}),
                select(ok, sign, Float(0.0f)));
+    }
+}
+
+void op_named_value(const Machine& m, const Instruction& in) {
+    const nodes::GeometryTables* g = m.chunk.geometry;
+    const int name = static_cast<int>(in.imm);
+    for (int i = 0; i < m.end; i += W) {
+        const Int instance = load(m.chunk.instance + i);
+        const Mask have = instance >= Int(0);
+        if (g == nullptr || g->instance_values.rows == nullptr || name < 0 || name >= g->instance_values.names ||
+            none(have)) {
+            store4(m, in, i, {0.0f, 0.0f, 0.0f}, 0.0f);
+            continue;
+        }
+        const Int row = (max(instance, Int(0)) * Int(g->instance_values.names) + Int(name)) * Int(4);
+        const auto get = [&](int k) {
+            return select(have, gather(g->instance_values.rows, row + Int(k)), Float(0.0f));
+        };
+        store4(m, in, i, {get(0), get(1), get(2)}, get(3));
+    }
+}
+
+/// Distance to the lines through the triangle's edges.
+void op_wireframe(const Machine& m, const Instruction& in) {
+    const Source width = m.arg(in, 0);
+    const Source3 offset = m.arg3(in, 1);
+    for (int i = 0; i < m.end; i += W) {
+        const Vec3 a = load3(m.chunk.dp_du, i), b = load3(m.chunk.dp_dv, i);
+        const Vec3 p = a * load(m.chunk.barycentric_u + i) + b * load(m.chunk.barycentric_v + i) + offset.at(i);
+        Float half = width.at(i) * 0.5f;
+        if (in.imm != 0) {
+            const Vec3 n = load3(m.chunk.normal_geometric, i), wo = load3(m.chunk.wo, i);
+            const Vec3 x = frame_axis(n), y = cross(n, x);
+            const Float seen = length(x - wo * dot(x, wo)) + length(y - wo * dot(y, wo));
+            half *= seen * 0.5f * load(m.chunk.footprint + i);
+        }
+        const auto near = [&](Vec3 from, Vec3 edge) {
+            const Vec3 area = cross(edge, p - from);
+            return dot(area, area) < dot(edge, edge) * half * half;
+        };
+        const Mask on = near({0.0f, 0.0f, 0.0f}, a) | near({0.0f, 0.0f, 0.0f}, b) | near(a, b - a);
+        const Mask mesh = load(m.chunk.instance + i) >= Int(0);
+        store(m.dst(in) + i, select(on & mesh, Float(1.0f), Float(0.0f)));
     }
 }
 
