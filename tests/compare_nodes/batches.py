@@ -24,7 +24,7 @@ WARNING = "Material “"
 
 @dataclass
 class Rendered:
-    """What came of a group of cases: pictures (renders, h, w, 3), reasons for skipping, problems, the add-on's words."""
+    """What came of a group of cases: pictures (renders, h, w, 3), reasons for skipping, problems, Cardioid's words."""
 
     pictures: dict[str, np.ndarray] = field(default_factory=dict)
     skipped: dict[str, str] = field(default_factory=dict)

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every shading node against Cycles, pixel by pixel; the last line is `N passed, N failed, N skipped`.
 
-usage: tests/compare_nodes/run.py [--host 3.4|bpy45|bpy50 ...] [--case GLOB ...] [--html OUT.html] [--json OUT.json] [--quick]
+usage: tests/compare_nodes/run.py [--host 3.4|bpy45|bpy50 ...] [--case GLOB ...] [--html OUT] [--json OUT] [--quick]
 
-A case is one tile whose emission is a node's output; all tiles of a host are one picture, rendered by both engines in one
-Blender each. Prints a line for each case that fails, with the share of pixels that agree (and of those that are explained:
-pixels.py), the worst pixel and its values; then the totals of each host.
+A case is one tile whose emission is a node's output; all tiles of a host are one picture, rendered by both engines in
+one Blender each. Prints a line for each case that fails, with the share of pixels that agree (and of those that are
+explained: pixels.py), the worst pixel and its values; then the totals of each host.
 """
 
 from __future__ import annotations
@@ -71,6 +71,7 @@ def main() -> int:
     parser.add_argument("--case", action="append", default=[], help="only cases whose name fits this pattern")
     parser.add_argument("--html", type=Path, default=ROOT / "build" / "compare_nodes.html", help="default: %(default)s")
     parser.add_argument("--json", type=Path, default=ROOT / "build" / "compare_nodes.json", help="default: %(default)s")
+    parser.add_argument("--text", type=Path, help="also write each host's lines to this folder")
     parser.add_argument("--quick", action="store_true", help="one case of each kind, in Debian's Blender")
     options = parser.parse_args()
     found, missing = hosts.find()
@@ -81,10 +82,11 @@ def main() -> int:
         start = time.monotonic()
         own = run_host(host, options)
         own.sort(key=lambda r: (not r.failed, r.case))
-        for result in own:
-            if result.failed:
-                print(line(result), flush=True)
-        print(f"{host.name}: {time.monotonic() - start:.0f} s", flush=True)
+        lines = [line(r) for r in own if r.failed] + [f"{host.name}: {time.monotonic() - start:.0f} s"]
+        print("\n".join(lines), flush=True)
+        if options.text:
+            options.text.mkdir(parents=True, exist_ok=True)
+            options.text.joinpath(f"{host.name}.txt").write_text("\n".join(lines) + "\n")
         results += own
     passed, failed = report(results, options, [h.name for h in found])
     if len(found) == 3:

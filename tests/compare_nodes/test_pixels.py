@@ -11,7 +11,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import pixels  # noqa: E402
+import pixels
 
 
 def tile(seed: int = 1) -> np.ndarray:

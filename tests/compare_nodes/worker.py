@@ -4,10 +4,10 @@
     blender -b --factory-startup --python-exit-code 1 -P worker.py -- TASK.json
     python worker.py -- TASK.json          (with the bpy wheel)
 
-TASK.json: {"engine": "CYCLES" or "CARDIOID", "cases": [names], "samples": n, "moved": bool, "out": path}. `out` (.npz) gets
-`pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, two more with other seeds and with the
-swept values moved by ±NUDGE. Beside it `out`.json: the cases in order, and those that this Blender cannot build with
-the reason.
+TASK.json: {"engine": "CYCLES" or "CARDIOID", "cases": [names], "samples": n, "moved": bool, "out": path}. `out` (.npz)
+gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, two more with other seeds and with
+the swept values moved by ±NUDGE. Beside it `out`.json: the cases in order, and those that this Blender cannot build
+with the reason.
 """
 
 from __future__ import annotations
@@ -69,13 +69,12 @@ def build(names: list[str], folder: str) -> tuple[list[str], dict[str, str], dic
             broken[name] = traceback.format_exc(limit=-3)
             continue
         quiet_emission(material)
+        material.pass_index = 3
         materials[name] = material
         built.append(name)
     columns, _ = stage.grid(len(built))
     for i, name in enumerate(built):
-        item = stage.place(name, registry.CASES[name].stage, materials[name], i % columns, i // columns, meshes)
-        if registry.CASES[name].noisy:
-            kit.common.box("blocker", (0.3, 0.05, 0.4), None, location=item.location)
+        stage.place(name, registry.CASES[name].stage, materials[name], i % columns, i // columns, meshes)
     return built, skipped, broken, meshes
 
 

@@ -6,10 +6,10 @@ from __future__ import annotations
 from registry import row
 from tile import P1, U1, V1, VEC, VEC2, VEC3, P, Q, U, V, scaled
 
-ONE = ("SQRT", "INVERSE_SQRT", "ABSOLUTE", "EXPONENT", "SIGN", "ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT", "SINE", "COSINE",
-       "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "SINH", "COSH", "TANH", "RADIANS", "DEGREES")  # fmt: skip
-TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "POWER", "LOGARITHM", "MINIMUM", "MAXIMUM", "LESS_THAN", "GREATER_THAN",
-       "MODULO", "FLOORED_MODULO", "SNAP", "PINGPONG", "ARCTAN2")  # fmt: skip
+ONE = ("SQRT", "INVERSE_SQRT", "ABSOLUTE", "EXPONENT", "SIGN", "ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT", "SINE",
+       "COSINE", "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "SINH", "COSH", "TANH", "RADIANS", "DEGREES")  # fmt: skip
+TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "POWER", "LOGARITHM", "MINIMUM", "MAXIMUM", "LESS_THAN",
+       "GREATER_THAN", "MODULO", "FLOORED_MODULO", "SNAP", "PINGPONG", "ARCTAN2")  # fmt: skip
 THREE = ("MULTIPLY_ADD", "COMPARE", "SMOOTH_MIN", "SMOOTH_MAX", "WRAP")
 
 for name in ONE:
@@ -33,8 +33,8 @@ for a, b in ((2.5, -1.25), (-0.5, 0.5), (0.0, 0.0)):
         row(f"math/{name}/constants {a} {b}", "Math", {0: a, 1: b}, operation=name)
 
 VECTORS_ONE = ("NORMALIZE", "LENGTH", "ABSOLUTE", "FLOOR", "CEIL", "FRACTION", "SINE", "COSINE", "TANGENT", "SIGN")
-VECTORS_TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "CROSS_PRODUCT", "PROJECT", "REFLECT", "DOT_PRODUCT", "DISTANCE",
-               "MINIMUM", "MAXIMUM", "MODULO", "SNAP", "POWER")  # fmt: skip
+VECTORS_TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "CROSS_PRODUCT", "PROJECT", "REFLECT", "DOT_PRODUCT",
+               "DISTANCE", "MINIMUM", "MAXIMUM", "MODULO", "SNAP", "POWER")  # fmt: skip
 VECTORS_THREE = ("MULTIPLY_ADD", "FACEFORWARD", "WRAP")
 
 for name in VECTORS_ONE:
