@@ -9,6 +9,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <charconv>
 
 namespace cardioid::image {
 namespace {
@@ -75,6 +76,24 @@ std::string name_by_content(const std::vector<std::uint8_t>& bytes) {
     return {};
 }
 
+struct MovieFrame {
+    std::string path;
+    int frame;
+};
+
+/// Splits "film.mp4#frame=12", how hosts name a picture of a movie; a file that really has such a name is a file.
+MovieFrame movie_frame(const std::string& path) {
+    static constexpr std::string_view mark = "#frame=";
+    const auto at = path.rfind(mark);
+    if (at == std::string::npos || OIIO::Filesystem::exists(path)) return {path, 0};
+    const char* digits = path.data() + at + mark.size();
+    const char* end = path.data() + path.size();
+    int frame = 0;
+    if (const auto read = std::from_chars(digits, end, frame); read.ec != std::errc() || read.ptr != end || frame < 0)
+        return {path, 0};
+    return {path.substr(0, at), frame};
+}
+
 std::string first_line(std::string text) {
     if (const auto end = text.find('\n'); end != std::string::npos) text.resize(end);
     return text;
@@ -107,7 +126,8 @@ class FileSource : public Source {
 public:
     FileSource(const scene::ImageDesc& image, FileCache& cache)
         : cache_(*cache.impl_->cache),
-          path_(image.path),
+          path_(movie_frame(image.path).path),
+          frame_(movie_frame(image.path).frame),
           packed_(image.packed),
           in_memory_(image.source == scene::ImageSource::packed) {
         const Opened in = open();
@@ -134,7 +154,7 @@ public:
         std::vector<std::byte> band(row_bytes() * k_tile);
         for (int y = 0; y < info_.height;) {
             const int rows = std::min(y == 0 ? first : k_tile, info_.height - y);
-            if (!in.input->read_scanlines(0, 0, top_ + y, top_ + y + rows, 0, 0, info_.delivered(),
+            if (!in.input->read_scanlines(frame_, 0, top_ + y, top_ + y + rows, 0, 0, info_.delivered(),
                                           oiio_type(info_.storage), band.data()))
                 throw SceneError("is damaged: " + first_line(in.input->geterror()));
             receive(y, rows, band.data());
@@ -144,7 +164,7 @@ public:
 
     void read_part(int x, int y, int width, int height, std::byte* texels) override {
         const OIIO::ustring name(path_);
-        if (cache_.get_pixels(name, 0, 0, left_ + x, left_ + x + width, top_ + y, top_ + y + height, 0, 1, 0,
+        if (cache_.get_pixels(name, frame_, 0, left_ + x, left_ + x + width, top_ + y, top_ + y + height, 0, 1, 0,
                               info_.delivered(), oiio_type(info_.storage), texels))
             return;
         throw SceneError("is damaged: " + first_line(cache_.geterror()));
@@ -175,6 +195,8 @@ private:
             in.input = OIIO::ImageInput::open(path_, &options);
         }
         if (!in.input) throw SceneError("cannot be read: " + first_line(OIIO::geterror()));
+        if (frame_ > 0 && !in.input->seek_subimage(frame_, 0))
+            throw SceneError("has no frame " + std::to_string(frame_ + 1));
         return in;
     }
 
@@ -196,7 +218,7 @@ private:
                 const int next = std::min(end + tile_height_, info_.height);
                 held.resize(row_bytes() * static_cast<std::size_t>(next - begin));
                 std::byte* to = held.data() + row_bytes() * static_cast<std::size_t>(end - begin);
-                if (!in.read_tiles(0, 0, left_, left_ + info_.width, top_ + end, top_ + next, 0, 1, 0,
+                if (!in.read_tiles(frame_, 0, left_, left_ + info_.width, top_ + end, top_ + next, 0, 1, 0,
                                    info_.delivered(), oiio_type(info_.storage), to))
                     throw SceneError("is damaged: " + first_line(in.geterror()));
                 end = next;
@@ -208,6 +230,7 @@ private:
 
     OIIO::ImageCache& cache_;
     std::string path_;
+    int frame_;  ///< of a file of several pictures
     std::vector<std::uint8_t> packed_;
     bool in_memory_;
     int left_ = 0, top_ = 0, tile_height_ = 0;

@@ -18,6 +18,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "diffuse_2": (4, 3),             # rough diffuse keeps its energy
     "bump_2": (3, 6),                # Bump's own normal may point below the surface
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
+    "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
     "voronoi_2": (5, 0),             # another hash of the cells
     "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
     "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
@@ -32,6 +33,8 @@ NODE_SINCE = {
     "ShaderNodeBsdfDiffuse": "diffuse_2",
     "ShaderNodeBump": "bump_2",
     "ShaderNodeNormalMap": "normal_map_2",
+    "ShaderNodeDisplacement": "displacement_2",
+    "ShaderNodeVectorDisplacement": "displacement_2",
     "ShaderNodeTexVoronoi": "voronoi_2",
 }
 

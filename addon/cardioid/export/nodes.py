@@ -8,7 +8,8 @@ from typing import Any
 import bpy
 
 from . import compat
-from .image import Images, absolute
+from .image import Images
+from .image_files import absolute
 from .names import affine
 
 TABLE = 256  # entries of a curve table
@@ -52,7 +53,7 @@ def _text(node: Any, name: str) -> str:
 def _pointer(node: Any, name: str, images: Images) -> dict[str, Any]:
     value = getattr(node, name)
     if name == "image":
-        return {"image": images.index(value, getattr(node, "image_user", None))}
+        return images.params(value, getattr(node, "image_user", None))
     if value is None:
         return {}
     if isinstance(value, bpy.types.ColorRamp):

@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from . import camera, values, world
+import bpy
+
+from . import camera, colors, values, world
 from .image import Images
 from .material import Materials
 from .objects import Objects
@@ -30,14 +32,21 @@ def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptio
     with _timed(timings, "total"):
         viewer = camera.camera_object(source, options)
         target.set_camera(camera.describe(viewer, source, options, warnings))
-        target.set_settings({**options.settings, "width": options.resolution[0], "height": options.resolution[1],
-                             "crop": list(options.crop)})
         with _timed(timings, "world"):
             _world(target, world.current(source, layer) if layer.use_sky else None, materials)
         with _timed(timings, "objects"):
             Objects(target, depsgraph, layer, materials, options, warnings).export()
+        target.set_settings(_settings(options, images))
     exported.warnings[:] = dict.fromkeys(warnings)
     return exported
+
+
+def _settings(options: ExportOptions, images: Images) -> dict[str, Any]:
+    found = {**options.settings, "width": options.resolution[0], "height": options.resolution[1],
+             "crop": list(options.crop)}
+    if found.get("ocio_config"):
+        found["ocio_config"] = colors.usable(found["ocio_config"], images.spaces, bpy.app.tempdir)
+    return found
 
 
 def _world(target: Any, background: Any, materials: Materials) -> None:

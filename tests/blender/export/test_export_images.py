@@ -2,10 +2,13 @@
 """Images: files, packed files, pixels, sequences, tiles; each handed over once."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
+from cardioid.export import image_files
+from cardioid.export.image import pixels_of
 
 from .kit import add, export, material, quad
 
@@ -149,22 +152,64 @@ def test_sequence(scene, tmp_path, frame, cyclic, number):
     assert only_image()["path"].endswith(f"shot.{number:04d}.png")
 
 
-def test_tiles_are_named(tmp_path):
-    image = file_image(tmp_path, "skin.1001.png")
-    image.source = "TILED"
-    image.filepath = str(tmp_path / "skin.<UDIM>.png")
-    texture(image)
+def tiled(folder, *numbers, listed=(1001, 1002, 1012), name="skin.<UDIM>.png"):
+    """A tiled image that lists the tiles `listed`; there are files for `numbers` alone. Returns the image node."""
+    for number in numbers:
+        bpy.data.images.remove(file_image(folder, image_files.tile_path(name, number)))
+    image = bpy.data.images.new("skin", 4, 4, tiled=True)
+    image.filepath = str(folder / name)
+    for number in listed[1:]:
+        image.tiles.new(number)
+    return texture(image)
+
+
+def tiles_of(exported):
+    nodes = exported.scene.materials[0]["graph"]["nodes"]
+    params = next(n for n in nodes if n["type"] == "ShaderNodeTexImage")["params"]
+    return params["image"], dict(zip(map(int, params["tiles"][::2]), map(int, params["tiles"][1::2])))
+
+
+@pytest.mark.parametrize("name", ["skin.<UDIM>.png", "skin.<UVTILE>.png"])
+def test_tiles(tmp_path, name):
+    tiled(tmp_path, 1001, 1002, 1012, name=name)
     exported = export()
-    assert only_image(exported)["path"].endswith("skin.1001.png")
-    assert any("tiles" in w and image.name in w for w in exported.warnings)
+    first, tiles = tiles_of(exported)
+    assert sorted(tiles) == [1001, 1002, 1012] and first == tiles[1001] and not exported.warnings
+    for number, index in tiles.items():
+        assert exported.scene.images[index]["path"] == image_files.tile_path(str(tmp_path / name), number)
 
 
-def test_an_image_without_pixels_is_named(tmp_path):
+def test_missing_tiles_are_named_and_left_out(tmp_path):
+    tiled(tmp_path, 1001, 1012)
+    exported = export()
+    assert sorted(tiles_of(exported)[1]) == [1001, 1012]
+    assert any("skin" in w and "1002" in w for w in exported.warnings)
+
+
+def test_no_tile_at_all(tmp_path):
+    tiled(tmp_path)
+    exported = export()
+    assert tiles_of(exported) == (-1, {}) and len(exported.warnings) == 3
+
+
+def test_packed_tiles(tmp_path):
+    node = tiled(tmp_path, 1001, 1002, listed=(1001, 1002))
+    node.image.pack()
+    (tmp_path / "skin.1001.png").unlink()
+    exported = export()
+    assert [i["source"] for i in exported.scene.images] == ["packed"] * 2
+    assert exported.scene.images[tiles_of(exported)[1][1002]]["packed"] == (tmp_path / "skin.1002.png").read_bytes()
+
+
+def test_movie_by_frame(scene, tmp_path):
     image = file_image(tmp_path)
-    image.source, image.filepath = "MOVIE", str(tmp_path / "gone.mp4")
-    image.name = "film"
-    texture(image)
-    exported = export()
-    assert not exported.scene.images and len(exported.scene.materials) == 1
-    assert any("film" in w and "movies" in w for w in exported.warnings)
-    assert any("film" in w and "no pixels" in w for w in exported.warnings)
+    image.source, image.filepath = "MOVIE", str(tmp_path / "film.mp4")
+    user = texture(image).image_user
+    user.frame_duration, user.frame_start, user.use_auto_refresh = 10, 1, True
+    scene.frame_set(1)
+    assert only_image()["path"] == str(tmp_path / "film.mp4#frame=0")
+
+
+def test_an_image_without_pixels_is_named():
+    with pytest.raises(ValueError, match="no pixels"):
+        pixels_of(SimpleNamespace(size=(0, 4), channels=4))
