@@ -45,11 +45,18 @@ def settings(scene: bpy.types.Scene, width: int, samples: int, blur: bool) -> No
 def used(scene: bpy.types.Scene) -> list:
     """Materials, world and lamps that this file's picture may need."""
     owners = {scene.world} | {o.data for o in scene.objects if o.type == "LIGHT"}
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    objects = [o for o in bpy.data.objects if o.users_scene or o.users_collection]
-    for obj in [*objects, *(i.object for i in depsgraph.object_instances)]:
-        owners |= {s.material.original for s in obj.material_slots if s.material}
-        owners |= {m.original for m in getattr(obj.data, "materials", ()) if m}
+
+    def add(obj) -> None:
+        if obj.data is None:
+            return  # 3.4 crashes at the slots of an evaluated empty
+        owners.update(s.material.original for s in obj.material_slots if s.material)
+        owners.update(m.original for m in getattr(obj.data, "materials", ()) if m)
+
+    for obj in bpy.data.objects:
+        if obj.users_scene or obj.users_collection:
+            add(obj)
+    for item in bpy.context.evaluated_depsgraph_get().object_instances:
+        add(item.object)  # at once: the item is gone with the next step
     return sorted((o for o in owners if o is not None), key=lambda o: (type(o).__name__, o.name))
 
 
