@@ -137,6 +137,12 @@ Spectrum ggx_albedo(const bsdf::Lobe& lobe, int i, Vec3 wo) {
     return lobe.preserve_energy && lobe.kind != LobeKind::ggx_refraction ? a * darkening(lobe, i, wo) : a;
 }
 
+/// Rough size of Burley's retro-reflection: it only chooses between lobes.
+Float retro_albedo(const bsdf::Lobe& lobe, int i, Vec3 wo) {
+    const Float grazing = schlick_factor(saturate(dot(load3(lobe.normal, i), wo)));
+    return load(lobe.roughness + i) * (0.05f + grazing);
+}
+
 }  // namespace
 
 Spectrum energy_compensation(const bsdf::Lobe& lobe, int i, Vec3 wo) {
@@ -148,7 +154,12 @@ Spectrum lobe_albedo(const bsdf::Lobe& lobe, int i, Vec3 wo) {
     switch (lobe.kind) {
         case LobeKind::diffuse:
         case LobeKind::translucent:
-        case LobeKind::burley: return w;
+        case LobeKind::subsurface: return w;
+        case LobeKind::burley: return lobe.preserve_energy ? w * retro_albedo(lobe, i, wo) : w;
+        case LobeKind::hair_reflection:
+        case LobeKind::hair_transmission:
+        case LobeKind::hair_chiang:
+        case LobeKind::hair_huang: return w * hair_albedo(lobe, i, wo);
         case LobeKind::ggx_reflection:
         case LobeKind::ggx_refraction:
         case LobeKind::ggx_glass: return w * ggx_albedo(lobe, i, wo);

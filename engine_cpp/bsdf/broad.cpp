@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lobes that are sampled over a whole hemisphere: translucent, Burley diffuse, velvet, both sheens; and Oren–Nayar's
-// value.
+// Broad lobes: translucent, Burley diffuse, velvet, both sheens, toon; and Oren–Nayar's value.
 #include "bsdf/broad.h"
 #include "bsdf/diffuse.h"
 
@@ -19,10 +18,33 @@ Float fujii_g(Float c) {
     return select(c < Float(1e-3f), k_fujii - c, full);
 }
 
-/// Disney diffuse (Burley 2012).
-Float burley(Float roughness, Float cos_o, Float cos_i, Float oi) {
+/// Disney diffuse (Burley 2012), or its retro-reflection alone.
+Float burley(Float roughness, Float cos_o, Float cos_i, Float oi, bool retro_alone) {
     const Float fo = schlick_factor(cos_o), fi = schlick_factor(cos_i), rr = roughness * (oi + 1.0f);
-    return (1.0f - 0.5f * fo) * (1.0f - 0.5f * fi) + rr * (fo + fi + fo * fi * (rr - 1.0f));
+    const Float retro = rr * (fo + fi + fo * fi * (rr - 1.0f));
+    return retro_alone ? retro : (1.0f - 0.5f * fo) * (1.0f - 0.5f * fi) + retro;
+}
+
+/// A cone of constant light about an axis that fades out over `smooth`.
+struct ToonCone {
+    Float size, smooth, outer;  ///< angles; `outer` bounds what is sampled
+    ToonCone(const bsdf::Lobe& lobe, int i) {
+        constexpr float right_angle = 0.5f * k_pi;
+        size = clamp(load(lobe.roughness + i), 1e-5f, 1.0f) * right_angle;
+        smooth = saturate(load(lobe.alpha_x + i)) * right_angle;
+        outer = min(size + smooth, right_angle);
+    }
+    /// 1 - cos(outer), exact for small angles.
+    Float height() const { return 2.0f * sqr(sin(0.5f * outer)); }
+    Float intensity(Float angle) const {
+        const Float fading = select(smooth > Float(0.0f), 1.0f - (angle - size) / max(smooth, 1e-20f), Float(0.0f));
+        return select(angle < size, Float(1.0f), max(fading, 0.0f));
+    }
+};
+
+/// Axis of a toon lobe: the normal, or wo mirrored.
+Vec3 toon_axis(const bsdf::Lobe& lobe, Vec3 n, Vec3 wo) {
+    return lobe.kind == LobeKind::toon_glossy ? n * (2.0f * dot(n, wo)) - wo : n;
 }
 
 /// Velvet (Ashikhmin & Premože 2007), f·cos; sigma as in the node.
@@ -73,7 +95,7 @@ Value broad_value(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi) {
         case LobeKind::translucent: return {-cos_i * k_inv_pi, -cos_i * k_inv_pi};
         case LobeKind::burley: {
             const Float pdf = cos_i * k_inv_pi;
-            return {pdf * burley(load(lobe.roughness + i), cos_o, cos_i, dot(wo, wi)), pdf};
+            return {pdf * burley(load(lobe.roughness + i), cos_o, cos_i, dot(wo, wi), lobe.preserve_energy), pdf};
         }
         case LobeKind::velvet: {
             const Float f = velvet(load(lobe.roughness + i), n, wo, wi, cos_o, cos_i);
@@ -86,6 +108,15 @@ Value broad_value(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi) {
             const Float pdf = sheen_density(sheen_cosine(x, y), Frame(n, wo).to_local(wi));
             return {pdf * sheen_albedo(x, y), pdf};
         }
+        case LobeKind::toon_diffuse:
+        case LobeKind::toon_glossy: {
+            const ToonCone cone(lobe, i);
+            const Vec3 axis = toon_axis(lobe, n, wo);
+            // The chord keeps small angles exact.
+            const Float angle = 2.0f * asin(min(0.5f * length(wi - axis), 1.0f));
+            const Float pdf = select(angle < cone.outer, 0.5f * k_inv_pi / cone.height(), Float(0.0f));
+            return {pdf * cone.intensity(angle), pdf};
+        }
         default: return {Float(0.0f), Float(0.0f)};
     }
 }
@@ -96,7 +127,8 @@ Mask broad_domain(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
     const Float cos_i = dot(n, wi), side = dot(ng, wi), zero = 0.0f;
     if (lobe.kind == LobeKind::translucent) return (cos_i < zero) & (side < zero);
     const Mask ok = (cos_i > zero) & (side > zero);
-    return lobe.kind == LobeKind::burley ? ok : ok & (dot(n, wo) > zero);
+    const bool from_below = lobe.kind == LobeKind::burley || lobe.kind == LobeKind::toon_diffuse;
+    return from_below ? ok : ok & (dot(n, wo) > zero);
 }
 
 Vec3 broad_direction(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 u) {
@@ -114,6 +146,12 @@ Vec3 broad_direction(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 u) {
             sincos(k_two_pi * u.y, s, c);
             const Float r = sqrt(u.x), z = sqrt(1.0f - u.x);
             return Frame(n, wo).to_world(normalize(Vec3{fma(r, c, -(z * k.b)), r * s, z * k.a}));
+        }
+        case LobeKind::toon_diffuse:
+        case LobeKind::toon_glossy: {
+            const Float down = u.x * ToonCone(lobe, i).height(), r = safe_sqrt(down * (2.0f - down));
+            sincos(k_two_pi * u.y, s, c);
+            return Frame(toon_axis(lobe, n, wo)).to_world({r * c, r * s, 1.0f - down});
         }
         default: return sample_cosine(n, u.x, u.y, cosine);
     }

@@ -1,43 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The GGX distribution with height-correlated Smith masking, in the frame of the shading normal. Sources: Walter et
-// al. 2007, Heitz 2014 (masking), Dupuy & Benyoub 2023 (visible normals through spherical caps).
+// GGX and Beckmann facets with Smith masking, in the frame of the shading normal. Sources: Walter et al. 2007, Heitz
+// 2014 (masking), Dupuy & Benyoub 2023 (visible normals of GGX through spherical caps), Heitz & d'Eon 2014 with the root
+// finding of Jakob 2014 (those of Beckmann).
 #pragma once
 
 #include "bsdf/fresnel.h"
 
 namespace cardioid::CD_ISA_NS {
 
-struct Ggx {
+/// The distribution of a lobe and its masking; one for all lanes but for its widths.
+struct Facets {
     Float ax, ay;
+    bsdf::Distribution kind = bsdf::Distribution::ggx;
+    bool separable = false;
 
     /// Density of facet normals, per unit projected area. Written with h.x/ax so that it keeps its precision at small
     /// alpha.
     Float d(Vec3 h) const {
-        const Float t = sqr(h.x / ax) + sqr(h.y / ay) + sqr(h.z);
-        return k_inv_pi / (ax * ay * sqr(t));
+        const Float slope2 = sqr(h.x / ax) + sqr(h.y / ay);
+        if (kind == bsdf::Distribution::beckmann) {
+            const Float z2 = max(sqr(h.z), 1e-12f);
+            return exp(-slope2 / z2) * k_inv_pi / (ax * ay * sqr(z2));
+        }
+        return k_inv_pi / (ax * ay * sqr(slope2 + sqr(h.z)));
     }
-    /// |v.z|·sqrt(1 + alpha²tan²): G1(v) = 2|v.z| / (|v.z| + stretch(v)); no division, so grazing directions are
-    /// harmless.
-    Float stretch(Vec3 v) const { return sqrt(sqr(ax * v.x) + sqr(ay * v.y) + sqr(v.z)); }
+    /// GGX: |v.z|·sqrt(1 + alpha²tan²); Beckmann: |v.z|·(1 + 2Λ) by the fit of Walter et al. 2007. Then G1(v) =
+    /// 2|v.z|/(|v.z| + stretch(v)); no division, so grazing directions are harmless.
+    Float stretch(Vec3 v) const {
+        const Float r2 = sqr(ax * v.x) + sqr(ay * v.y), z = abs(v.z);
+        if (kind != bsdf::Distribution::beckmann) return sqrt(r2 + sqr(z));
+        const Float r = sqrt(max(r2, 1e-20f)), a = min(z / r, 1.6f);
+        const Float rest = r * max(fma(fma(a, 0.396f, -1.259f), a, 1.0f), 0.0f) / fma(a, 2.181f, 3.535f);
+        return z + select(a < Float(1.6f), 2.0f * rest, Float(0.0f));
+    }
 
     /// A facet normal as seen from o (o.z > 0) with density D·G1(o)·<o,h>/o.z.
     Vec3 sample_visible(Vec3 o, Float u0, Float u1) const {
         const Vec3 v = normalize(Vec3{ax * o.x, ay * o.y, o.z});
+        if (kind == bsdf::Distribution::beckmann) return sample_beckmann(v, u0, u1);
         Float s, c;
         sincos(k_two_pi * u0, s, c);
         const Float z = fma(1.0f - u1, 1.0f + v.z, -v.z);
         const Float r = safe_sqrt(1.0f - z * z);
         return normalize(Vec3{ax * fma(r, c, v.x), ay * fma(r, s, v.y), max(z + v.z, 1e-6f)});
     }
+
+private:
+    Vec3 sample_beckmann(Vec3 v, Float u0, Float u1) const;
 };
 
-/// What evaluation and sampling of a GGX lobe share.
+using Ggx = Facets;
+
+/// What evaluation and sampling of a microfacet lobe share.
 struct GgxPoint {
     Frame frame;
-    Ggx ggx;
+    Facets facets;
     Vec3 o;  ///< wo in the frame
     Float stretch_o;
     Mask delta;
+
+    Float g1_over_z() const { return 2.0f / (o.z + stretch_o); }
+    /// Masking of both directions over o.z; `iz` = |in.z|.
+    Float g2_over_z(Vec3 in, Float iz) const {
+        const Float stretch_i = facets.stretch(in);
+        if (facets.separable) return g1_over_z() * (2.0f * iz / max(iz + stretch_i, 1e-30f));
+        // 1/(1 + Λo + Λi), each Λ from its stretch.
+        return 2.0f * iz / max(stretch_o * iz + stretch_i * o.z, 1e-30f);
+    }
 };
 
 inline Mask ggx_is_delta(const bsdf::Lobe& lobe, int i) {
@@ -61,23 +90,32 @@ inline Frame ggx_frame(const bsdf::Lobe& lobe, int i, Float ax, Float ay) {
 inline GgxPoint ggx_point(const bsdf::Lobe& lobe, int i, Vec3 wo) {
     const Float ax = max(load(lobe.alpha_x + i), bsdf::k_delta_alpha),
                 ay = max(load(lobe.alpha_y + i), bsdf::k_delta_alpha);
-    GgxPoint p{ggx_frame(lobe, i, ax, ay), {ax, ay}, {}, {}, ggx_is_delta(lobe, i)};
+    const Facets facets{ax, ay, lobe.distribution, lobe.separable_masking};
+    GgxPoint p{ggx_frame(lobe, i, ax, ay), facets, {}, {}, ggx_is_delta(lobe, i)};
     p.o = p.frame.to_local(wo);
-    p.stretch_o = p.ggx.stretch(p.o);
+    p.stretch_o = p.facets.stretch(p.o);
     return p;
-}
-
-/// Facet normal of a sample; the shading normal where the lane is a delta.
-inline Vec3 sample_facet(const GgxPoint& p, Vec3 u) {
-    const Vec3 up = {0.0f, 0.0f, 1.0f};
-    if (all(p.delta)) return up;
-    return select(p.delta, up, p.ggx.sample_visible(p.o, u.x, u.y));
 }
 
 /// A lobe's value and density without its Fresnel term.
 struct FacetTerms {
     Float f_cos, pdf;
 };
+
+/// Ashikhmin–Shirley and GTR1, which are not sampled by visible normals (plain_facets.cpp).
+inline bool has_visible_normals(const GgxPoint& p) {
+    return p.facets.kind == bsdf::Distribution::ggx || p.facets.kind == bsdf::Distribution::beckmann;
+}
+FacetTerms plain_facet_terms(const GgxPoint& p, Vec3 in, Vec3 h);
+Vec3 sample_plain_facet(const GgxPoint& p, Float u0, Float u1);
+
+/// Facet normal of a sample; the shading normal where the lane is a delta.
+inline Vec3 sample_facet(const GgxPoint& p, Vec3 u) {
+    const Vec3 up = {0.0f, 0.0f, 1.0f};
+    if (all(p.delta)) return up;
+    if (!has_visible_normals(p)) return select(p.delta, up, sample_plain_facet(p, u.x, u.y));
+    return select(p.delta, up, p.facets.sample_visible(p.o, u.x, u.y));
+}
 
 /// The terms of a sample: `rough()` outside the delta lanes, 1 in them.
 template <class Rough>

@@ -23,10 +23,8 @@ FacetTerms facet_terms(const GgxPoint& p, Vec3 in, Vec3 h, Float eta, Mask refra
     const Float oh = abs(dot(p.o, h)), ih = abs(dot(in, h));
     // Along h: |o + eta·in| = |oh - eta·ih|, the length before normalising; o and in lie on opposite sides.
     const Float jacobian = select(refracted, sqr(eta) * oh * ih / max(sqr(oh - eta * ih), 1e-30f), Float(0.25f));
-    const Float d = p.ggx.d(h) * jacobian;
-    const Float iz = abs(in.z);
-    return {2.0f * d * iz / max(p.stretch_o * iz + p.ggx.stretch(in) * p.o.z, 1e-30f),
-            2.0f * d / (p.o.z + p.stretch_o)};
+    const Float d = p.facets.d(h) * jacobian;
+    return {d * p.g2_over_z(in, abs(in.z)), d * p.g1_over_z()};
 }
 
 }  // namespace

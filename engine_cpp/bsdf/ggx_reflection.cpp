@@ -13,9 +13,9 @@ Spectrum weight_of(const bsdf::Lobe& lobe, int i, Vec3 wo) {
 
 /// f·cos = F·D·G2/(4 o.z) and its density D·G1/(4 o.z), both over F.
 FacetTerms reflect_terms(const GgxPoint& p, Vec3 in, Vec3 h) {
-    const Float d = p.ggx.d(h);
-    const Float stretch_i = p.ggx.stretch(in);
-    return {0.5f * d * in.z / max(p.stretch_o * in.z + stretch_i * p.o.z, 1e-30f), 0.5f * d / (p.o.z + p.stretch_o)};
+    if (!has_visible_normals(p)) return plain_facet_terms(p, in, h);
+    const Float d = 0.25f * p.facets.d(h);
+    return {d * p.g2_over_z(in, in.z), d * p.g1_over_z()};
 }
 
 }  // namespace

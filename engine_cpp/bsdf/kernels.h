@@ -19,6 +19,11 @@ inline LobeEval eval_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 
         case LobeKind::ggx_reflection: return eval_ggx_reflection(lobe, i, wo, wi, ng);
         case LobeKind::ggx_refraction:
         case LobeKind::ggx_glass: return eval_ggx_interface(lobe, i, wo, wi, ng);
+        case LobeKind::subsurface: return {Spectrum(0.0f), Float(0.0f)};
+        case LobeKind::hair_reflection:
+        case LobeKind::hair_transmission:
+        case LobeKind::hair_chiang:
+        case LobeKind::hair_huang: return eval_hair(lobe, i, wo, wi);
         default: return eval_broad(lobe, i, wo, wi, ng);
     }
 }
@@ -31,6 +36,11 @@ inline LobeSample sample_lobe(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, V
         case LobeKind::ggx_reflection: return sample_ggx_reflection(lobe, i, wo, ng, u, active);
         case LobeKind::ggx_refraction:
         case LobeKind::ggx_glass: return sample_ggx_interface(lobe, i, wo, ng, u, active);
+        case LobeKind::subsurface: return no_sample(ng);
+        case LobeKind::hair_reflection:
+        case LobeKind::hair_transmission:
+        case LobeKind::hair_chiang:
+        case LobeKind::hair_huang: return sample_hair(lobe, i, wo, ng, u, active);
         default: return sample_broad(lobe, i, wo, ng, u, active);
     }
 }

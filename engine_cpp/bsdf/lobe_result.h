@@ -19,4 +19,9 @@ struct LobeSample {
     Float eta;  ///< 1 for reflection; the relative index passed through for refraction
 };
 
+inline LobeSample no_sample(Vec3 direction) {
+    const Mask no = mask_of(false);
+    return {direction, Spectrum(0.0f), Float(0.0f), no, no, no, Float(1.0f)};
+}
+
 }  // namespace cardioid::CD_ISA_NS

@@ -150,6 +150,7 @@ public:
     void emission(Ref3 radiance);
     void transparent(Ref3 weight);
     void holdout(Ref weight);
+    void displacement(Ref3 offset) { emit(Op::displacement, {offset.x, offset.y, offset.z}); }
     void medium_absorption(Ref3 coefficient);
     void medium_emission(Ref3 radiance);
     void medium_phase(bsdf::PhaseKind kind, Ref3 scatter, Ref3 parameter);

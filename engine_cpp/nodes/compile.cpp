@@ -87,6 +87,13 @@ bool is_constant_medium(const Program& p) {
                        [](const Instruction& in) { return op_info(in.op).kind == OpKind::effect; });
 }
 
+/// Leaves a lobe in the output.
+bool is_lobe(const Instruction& in) {
+    const bool makes = in.op == Op::lobe_simple || in.op == Op::lobe_sheen || in.op == Op::lobe_ggx ||
+                       in.op == Op::lobe_subsurface || in.op == Op::lobe_hair;
+    return makes && (in.imm & lobe_keep) != 0;
+}
+
 ProgramInfo describe(const CompiledGraph& g) {
     const Program& surface = g.of(Purpose::surface);
     const Program& emission = g.of(Purpose::emission);
@@ -105,11 +112,11 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.needs_triangle_frame = reads_triangle(surface);
     info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::named_value) ||
                           uses(surface, Op::transform) || uses(surface, Op::uv_tangent);
-    for (const Instruction& in : surface.code)
-        info.lobes += op_info(in.op).kind == OpKind::effect && (in.op == Op::lobe_simple || (in.imm & lobe_keep)) &&
-                      in.op != Op::emission && in.op != Op::transparent && in.op != Op::holdout;
+    info.lobes = static_cast<int>(std::count_if(surface.code.begin(), surface.code.end(), is_lobe));
+    info.has_subsurface = uses(surface, Op::lobe_subsurface);
     info.has_lobes = info.lobes > 0;
     info.least_alpha = least_alpha(surface);
+    info.has_displacement = uses(g.of(Purpose::displacement), Op::displacement);
     const Program& volume = g.of(Purpose::volume);
     info.has_volume = !volume.code.empty();
     info.constant_volume = is_constant_medium(volume);

@@ -23,9 +23,13 @@ inline constexpr const char* k_active_color = "#active_color";
 /// 1 channel per vertex, Geometry ▸ Pointiness.
 inline constexpr const char* k_random_island = "#random_island";
 inline constexpr const char* k_pointiness = "#pointiness";
-/// Prefix: "#tangent:UVMAP" is written by the host, 4 channels per corner: MikkTSpace tangent in object space and the sign of the
+/// Prefix: "#tangent:UVMAP" ("#tangent:#active_uv" for the render-active map) is written by the host, 4 channels per corner: MikkTSpace tangent in object space and the sign of the
 /// bitangent.
 inline constexpr const char* k_tangent_prefix = "#tangent:";
+/// The host writes it for meshes that modifiers or shape keys have bent: 3 channels per point, Generated coordinates.
+inline constexpr const char* k_generated = "#generated";
+/// Trace/ writes it for meshes whose vertices moved: 3 channels per point, object-space position before that.
+inline constexpr const char* k_undisplaced = "#undisplaced";
 /// Hair that the host turned into triangles: 3 channels per point, direction along the strand in object space; and Hair Info's
 /// values, 1 channel each.
 inline constexpr const char* k_curve_tangent = "#curve_tangent";

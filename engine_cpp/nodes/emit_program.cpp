@@ -15,6 +15,7 @@ bool wanted(Op op, Purpose purpose) {
         case Op::emission: return purpose == Purpose::surface || purpose == Purpose::emission;
         case Op::transparent:
         case Op::holdout: return purpose == Purpose::surface || purpose == Purpose::transparency;
+        case Op::displacement: return purpose == Purpose::displacement;
         case Op::medium_absorption:
         case Op::medium_emission:
         case Op::medium_phase: return purpose == Purpose::volume;

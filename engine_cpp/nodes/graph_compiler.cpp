@@ -54,7 +54,7 @@ void GraphCompiler::cut_bad_links() {
     }
     for (scene::OutputDesc* out : {&graph_.surface, &graph_.volume, &graph_.displacement})
         if (out->node >= count) out->node = -1;
-    for (const scene::OutputDesc& out : {graph_.surface, graph_.volume})
+    for (const scene::OutputDesc& out : {graph_.surface, graph_.volume, graph_.displacement})
         if (out.node >= 0) used_.emplace(out.node, out.socket);
 }
 
@@ -95,6 +95,7 @@ void GraphCompiler::cut_loops() {
 }
 
 void GraphCompiler::run() {
+    move_vertices();
     run_surface();
     run_volume();
 }
@@ -107,7 +108,7 @@ void GraphCompiler::run_surface() {
             builder_.transparent(builder_.constant({1, 1, 1}));
         return;
     }
-    apply_displacement();
+    bump_displacement();
     if (is_closure(surface.node)) {
         run_closures(surface.node);
         return;
@@ -155,22 +156,54 @@ void GraphCompiler::add_phase(PhaseKind kind, Ref3 scatter, Ref3 parameter, int 
     }
 }
 
-/// Displacement as bump mapping: the height is the displacement along the normal.
-void GraphCompiler::apply_displacement() {
+float GraphCompiler::set_step(float pixels) {
+    const float before = step();
+    const auto at = std::find(steps_.begin(), steps_.end(), pixels);
+    step_ = static_cast<int>(at - steps_.begin());
+    if (at == steps_.end()) steps_.push_back(pixels);
+    return before;
+}
+
+void GraphCompiler::move_vertices() {
     const scene::OutputDesc& out = graph_.displacement;
     if (out.node < 0 || context_.kind != GraphKind::material || is_closure(out.node)) return;
+    if (context_.displacement_method == scene::DisplacementMethod::bump) return;
+    evaluate(out.node, Shift::none);
+    const Value* v = output(out.node, out.socket, Shift::none);
+    if (v == nullptr) return;
+    builder_.displacement(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v);
+    moved_ = true;
+    // On the moved surface positions mean something else.
+    outputs_.clear();
+}
+
+/// The height is the displacement along the normal. A material that moves its vertices too is bumped in object space, from
+/// the surface before it moved.
+void GraphCompiler::bump_displacement() {
+    const scene::OutputDesc& out = graph_.displacement;
+    if (out.node < 0 || context_.kind != GraphKind::material || is_closure(out.node)) return;
+    if (context_.displacement_method == scene::DisplacementMethod::displacement) return;
+    NodeContext c(*this, out.node, Shift::none, nullptr);
+    // Blender 4.5 and later make the step a tenth of a pixel.
+    const float before = set_step(c.property("version", 1) >= 2 ? 0.1f : 1.0f);
+    undisplaced_ = moved_;
     Ref height[3];
+    bool found = true;
     for (const Shift shift : {Shift::none, Shift::x, Shift::y}) {
         evaluate(out.node, shift);
         const Value* v = output(out.node, out.socket, shift);
-        if (v == nullptr) return;
+        found = found && v != nullptr;
+        if (!found) break;
         height[static_cast<int>(shift)] =
             builder_.dot(v->type == Value::Type::number ? builder_.broadcast(v->v.x) : v->v, normal_);
     }
-    NodeContext c(*this, out.node, Shift::none, nullptr);
-    const Ref one = builder_.constant(1);
-    normal_ =
-        bumped(c, normal_, builder_.subtract(height[1], height[0]), builder_.subtract(height[2], height[0]), one, one);
+    if (found) {
+        const Ref one = builder_.constant(1);
+        const Ref dx = builder_.subtract(height[1], height[0]), dy = builder_.subtract(height[2], height[0]);
+        normal_ = moved_ ? bumped_in_object_space(c, normal_, dx, dy, one, one) : bumped(c, normal_, dx, dy, one, one);
+    }
+    undisplaced_ = false;
+    set_step(before);
     // What was computed so far saw the plain normal.
     outputs_.clear();
 }
@@ -244,7 +277,7 @@ void GraphCompiler::evaluate(int root, Shift shift) {
         int node;
         bool inputs_done;
     };
-    const auto key = [shift](int n) { return n * 3 + static_cast<int>(shift); };
+    const auto key = [this, shift](int n) { return this->key(n, shift); };
     std::vector<Frame> stack{{root, false}};
     while (!stack.empty()) {
         const Frame f = stack.back();
@@ -276,7 +309,7 @@ void GraphCompiler::evaluate(int root, Shift shift) {
 }
 
 const Value* GraphCompiler::output(int node, const std::string& socket, Shift shift) {
-    const auto found = outputs_.find(node * 3 + static_cast<int>(shift));
+    const auto found = outputs_.find(key(node, shift));
     if (found == outputs_.end()) return nullptr;
     const auto value = found->second.find(socket);
     if (value != found->second.end()) return &value->second;

@@ -39,6 +39,7 @@ public:
     Ref3 normal() const { return normal_; }
     /// The volume output is being walked: surfaces are left out, emission is that of the medium.
     bool in_volume() const { return in_volume_; }
+    float step() const { return steps_[static_cast<std::size_t>(step_)]; }
     /// A scattering part of the medium; parts of one kind and parameter are summed.
     void add_phase(PhaseKind kind, Ref3 scatter, Ref3 parameter, int node);
 
@@ -49,7 +50,17 @@ private:
 
     void cut_bad_links();
     void cut_loops();
-    void apply_displacement();
+    /// Displacement of the vertices, when the material's method asks for it.
+    void move_vertices();
+    /// Displacement that turns the normal alone.
+    void bump_displacement();
+    /// Key of a node's results at a place: shifted ones depend on the step's length too.
+    int key(int node, Shift shift) const {
+        const int count = static_cast<int>(graph_.nodes.size());
+        return (shift == Shift::none ? 0 : step_ * count * 3) + node * 3 + static_cast<int>(shift);
+    }
+    /// Length of the bump's step in pixels; returns the one before.
+    float set_step(float pixels);
     void run_surface();
     void run_volume();
     void run_closures(int root);
@@ -69,7 +80,9 @@ private:
     Warnings& warnings_;
     Builder builder_;
     std::vector<const NodeType*> types_;
-    std::unordered_map<int, Outputs> outputs_;  ///< by node * 3 + shift
+    std::unordered_map<int, Outputs> outputs_;  ///< by key()
+    std::vector<float> steps_{1.0f};            ///< lengths of bump steps, in pixels
+    int step_ = 0;                              ///< the one in use
     std::vector<Ref> weight_;                   ///< of closures, summed over all ways to reach them
     std::vector<bool> reached_;
     std::set<std::pair<int, std::string>> used_;  ///< outputs that something is linked to
@@ -82,6 +95,8 @@ private:
     };
     std::vector<Phase> phases_;
     bool in_volume_ = false;
+    bool moved_ = false;        ///< the material moves its vertices
+    bool undisplaced_ = false;  ///< positions are those before the vertices moved
 };
 
 }  // namespace cardioid::nodes

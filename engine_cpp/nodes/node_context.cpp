@@ -68,11 +68,22 @@ std::vector<double> NodeContext::list(const char* name) const {
     return v != nullptr ? *v : std::vector<double>{};
 }
 
-Ref3 NodeContext::step(Shift axis) { return b.emit3(Op::surface_step, {}, axis == Shift::x ? 0u : 1u); }
+Ref3 NodeContext::step(Shift axis) {
+    const Ref3 pixel = b.emit3(Op::surface_step, {}, axis == Shift::x ? 0u : 1u);
+    return b.multiply(pixel, b.constant(compiler_.step()));
+}
+
+Ref3 NodeContext::undisplaced(Ref3 moved) {
+    const Results r = attribute(k_undisplaced, attribute_missing_clear);
+    const Ref3 p =
+        b.emit3(Op::transform, {r[0], r[1], r[2]}, transform_mode(Space::object, Quantity::point, Direction::to_world));
+    return Builder::each(p, moved, [&](Ref x, Ref y) { return b.select_positive(r[3], x, y); });
+}
 
 Ref3 NodeContext::position() {
-    const Ref3 p = b.chunk3(ChunkRow::position);
-    return shift_ == Shift::none ? p : b.add(p, step(shift_));
+    const Ref3 here = b.chunk3(ChunkRow::position);
+    const Ref3 p = shift_ == Shift::none ? here : b.add(here, step(shift_));
+    return compiler_.undisplaced_ ? undisplaced(p) : p;
 }
 
 Ref NodeContext::barycentric(int k) {
@@ -90,10 +101,15 @@ Ref3 NodeContext::object_position() {
 }
 
 Ref3 NodeContext::generated() {
-    const Ref3 p = position();
+    Ref3 p = position();
     if (kind() == GraphKind::world) return p;
-    return b.emit3(Op::transform, {p.x, p.y, p.z},
-                   transform_mode(Space::generated, Quantity::point, Direction::from_world));
+    if (compiler_.moved_ && !compiler_.undisplaced_) p = undisplaced(p);
+    const Ref3 box = b.emit3(Op::transform, {p.x, p.y, p.z},
+                             transform_mode(Space::generated, Quantity::point, Direction::from_world));
+    if (kind() != GraphKind::material) return box;
+    const Results stored = attribute(k_generated, attribute_missing_clear);
+    return Builder::each({stored[0], stored[1], stored[2]}, box,
+                         [&](Ref x, Ref y) { return b.select_positive(stored[3], x, y); });
 }
 
 namespace {
@@ -205,6 +221,23 @@ Ref NodeContext::ggx_lobe(const GgxLobe& l) {
                    l.f0.x,      l.f0.y,      l.f0.z,      l.f90.x,          l.f90.y,          l.f90.z,
                    l.tint.x,    l.tint.y,    l.tint.z,    l.layer_weight.x, l.layer_weight.y, l.layer_weight.z},
                   imm);
+}
+
+void NodeContext::subsurface_lobe(const SubsurfaceLobe& l, const std::string& method, bool before_4) {
+    if (!room_for_lobe(l.weight)) return;
+    using bsdf::Fresnel;
+    const bool burley = method == "BURLEY";
+    const bool skin = method == (before_4 ? "RANDOM_WALK" : "RANDOM_WALK_SKIN");
+    const Fresnel entry = before_4 || burley ? Fresnel::none : skin ? Fresnel::schlick : Fresnel::dielectric;
+    const std::uint32_t imm = static_cast<std::uint32_t>(bsdf::LobeKind::subsurface) |
+                              static_cast<std::uint32_t>(entry) << lobe_fresnel_shift |
+                              (burley ? lobe_preserve_energy : 0u) | lobe_keep | (l.v1 ? lobe_v1_exit : 0u) |
+                              (skin ? lobe_skin_radius : 0u);
+    const Ref alpha = skin ? b.constant(1) : l.alpha;
+    b.emit(Op::lobe_subsurface,
+           {l.weight.x, l.weight.y, l.weight.z, l.normal.x, l.normal.y, l.normal.z, l.albedo.x, l.albedo.y, l.albedo.z,
+            l.radius.x, l.radius.y, l.radius.z, l.index, l.anisotropy, alpha},
+           imm);
 }
 
 Ref NodeContext::sheen_lobe(Ref3 weight, Ref3 n, Ref roughness, Ref3 layer_weight) {

@@ -17,6 +17,13 @@ struct GgxLobe {
     Ref3 f0, f90, tint, layer_weight;
 };
 
+/// Operands of a subsurface lobe.
+struct SubsurfaceLobe {
+    Ref3 weight, normal, albedo, radius;
+    Ref index, anisotropy, alpha;
+    bool v1 = false;  ///< of Principled before Blender 4.0
+};
+
 class NodeContext {
 public:
     NodeContext(GraphCompiler& compiler, int index, Shift shift, Outputs* outputs)
@@ -67,11 +74,15 @@ public:
     Results instance_value(const std::string& name);
     GraphKind kind() const { return compiler_.context().kind; }
     Shift shift() const { return shift_; }
+    /// The same node, evaluated at another place.
+    NodeContext at(Shift shift) const { return {compiler_, index_, shift, nullptr}; }
     const image::ImageStore* images() const { return compiler_.context().images; }
-    /// A step of a pixel's width along the surface (bump).
+    /// Where the surface goes on by the bump's step along an axis.
     Ref3 step(Shift axis);
     /// The value of a linked number input at another place; unlinked: its own value.
     Ref number_at(const char* id, Shift shift, float fallback);
+    /// Length of the step in pixels; returns the one before.
+    float set_step(float pixels) { return compiler_.set_step(pixels); }
 
     // Closures.
     /// Gives `weight` to what is linked to a shader input.
@@ -90,6 +101,8 @@ public:
     Ref ggx_lobe(const GgxLobe& lobe);
     Ref sheen_lobe(Ref3 weight, Ref3 normal, Ref roughness, Ref3 layer_weight);
     GgxLobe ggx();
+    /// `method`: the node's enum. Before 4.0 its names meant other things and walks entered diffusely.
+    void subsurface_lobe(const SubsurfaceLobe& lobe, const std::string& method, bool before_4);
     /// The input "Normal" (or another) of a closure: unit, bent for glossy ones.
     Ref3 closure_normal(const char* id, bool glossy);
 
@@ -100,6 +113,8 @@ private:
     const Value* source(const char* id) const;
     const scene::InputDesc* input(const char* id) const;
     Ref barycentric(int k);
+    /// World position before the vertices moved; `moved` where the mesh does not keep it.
+    Ref3 undisplaced(Ref3 moved);
     bool room_for_lobe(Ref3 weight);
 
     GraphCompiler& compiler_;

@@ -69,6 +69,15 @@ Affine panel_matrix(NodeContext& c, const std::string& type) {
 
 }  // namespace
 
+Ref3 bumped_in_object_space(NodeContext& c, Ref3 n, Ref dx, Ref dy, Ref strength, Ref distance) {
+    const Ref3 here = c.position();
+    const auto step = [&](Shift axis) {
+        return to_object(c, c.b.subtract(c.at(axis).position(), here), Quantity::vector);
+    };
+    const Ref3 local = to_object(c, n, Quantity::normal);
+    return to_world(c, tilted(c, local, step(Shift::x), step(Shift::y), dx, dy, strength, distance), Quantity::normal);
+}
+
 Ref3 constant_affine(NodeContext& c, const Affine& a, Ref3 v, bool translate) {
     const auto row = [&](std::size_t k) {
         const Ref x = c.b.multiply(v.x, c.b.constant(a.m[k * 4])), y = c.b.multiply(v.y, c.b.constant(a.m[k * 4 + 1]));

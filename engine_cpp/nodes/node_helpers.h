@@ -43,11 +43,15 @@ inline Ref3 default_tangent(NodeContext& c) {
     return tangent_around(c, {c.b.subtract(half, g.y), c.b.subtract(g.x, half), c.b.constant(0)});
 }
 
-/// The normal tilted by a height that changes by dx and dy over a pixel's width.
-inline Ref3 bumped(NodeContext& c, Ref3 n, Ref dx, Ref dy, Ref strength, Ref distance) {
-    const Ref3 sx = c.step(Shift::x), sy = c.step(Shift::y);
+/// The normal tilted by a height that changes by dx and dy over the two steps.
+inline Ref3 tilted(NodeContext& c, Ref3 n, Ref3 sx, Ref3 sy, Ref dx, Ref dy, Ref strength, Ref distance) {
     return c.b.emit3(Op::bump, {n.x, n.y, n.z, sx.x, sx.y, sx.z, sy.x, sy.y, sy.z, dx, dy, strength, distance});
 }
+inline Ref3 bumped(NodeContext& c, Ref3 n, Ref dx, Ref dy, Ref strength, Ref distance) {
+    return tilted(c, n, c.step(Shift::x), c.step(Shift::y), dx, dy, strength, distance);
+}
+/// The same in object space, with the steps that the position makes.
+Ref3 bumped_in_object_space(NodeContext& c, Ref3 n, Ref dx, Ref dy, Ref strength, Ref distance);
 
 /// `v` turned about the unit `axis` by `angle` radians.
 inline Ref3 rotated(NodeContext& c, Ref3 v, Ref3 axis, Ref angle) {

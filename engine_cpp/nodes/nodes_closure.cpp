@@ -45,11 +45,23 @@ void translucent(NodeContext& c, Ref weight) {
 }
 
 void subsurface(NodeContext& c, Ref weight) {
+    // The boundary's roughness came with the methods' present names.
+    const bool before_4 = !c.has("Roughness");
+    SubsurfaceLobe l;
+    l.albedo = c.b.maximum(c.color("Color", {0.8f, 0.8f, 0.8f}), c.b.constant(0));
+    l.weight = c.b.multiply(l.albedo, weight);
+    l.normal = c.closure_normal("Normal", true);
+    l.radius = c.b.multiply(c.vector("Radius", {1, 0.2f, 0.1f}), c.number("Scale", before_4 ? 1 : 0.05f));
+    l.index = c.number("IOR", 1.4f);
+    l.anisotropy = c.number("Anisotropy", 0);
+    l.alpha = c.number("Roughness", 1);
+    c.subsurface_lobe(l, c.text("falloff", "RANDOM_WALK"), before_4);
+}
+
+void plain_diffuse(NodeContext& c, Ref weight) {
     const Ref3 w = weighted(c, weight);
     c.simple_lobe(LobeKind::diffuse, w, c.closure_normal("Normal", false), c.b.constant(0), false, w);
 }
-
-void plain_diffuse(NodeContext& c, Ref weight) { subsurface(c, weight); }
 
 void velvet(NodeContext& c, Ref weight) {
     const Ref3 w = weighted(c, weight);

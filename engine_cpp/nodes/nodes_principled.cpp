@@ -27,13 +27,36 @@ Ref3 hue_of(NodeContext& c, Ref3 color, Ref luminance) {
     return c.b.each(color, [&](Ref x) { return c.b.select_positive(luminance, c.b.divide(x, luminance), one); });
 }
 
+/// Subsurface radii shrink with its weight; what goes in is a mix of both colours.
+void v1_subsurface(NodeContext& c, const V1& p, Ref weight, Ref subsurface, Ref3 color) {
+    SubsurfaceLobe l;
+    l.albedo = color;
+    l.weight = c.b.multiply(color, weight);
+    l.normal = p.normal;
+    l.radius = c.b.multiply(c.vector("Subsurface Radius", {1, 0.2f, 0.1f}), subsurface);
+    l.index = c.number("Subsurface IOR", 1.4f);
+    l.anisotropy = c.number("Subsurface Anisotropy", 0);
+    l.alpha = c.b.constant(1);
+    l.v1 = true;
+    c.subsurface_lobe(l, c.text("subsurface_method", "RANDOM_WALK"), true);
+}
+
 void v1_diffuse(NodeContext& c, const V1& p, Ref weight) {
-    const Ref subsurface = c.b.saturate(c.number("Subsurface", 0));
-    const Ref3 color =
-        c.b.is(subsurface, 0) ? p.base : c.b.mix(p.base, c.color("Subsurface Color", {0.8f, 0.8f, 0.8f}), subsurface);
+    const Ref subsurface = c.number("Subsurface", 0), zero = c.b.constant(0);
     const Ref w = c.b.multiply(weight, p.diffuse_weight);
-    c.simple_lobe(LobeKind::burley, c.b.multiply(c.b.maximum(color, c.b.constant(0)), w), p.normal, p.roughness, false,
-                  color);
+    if (c.b.is(subsurface, 0)) {
+        const Ref3 color = c.b.multiply(c.b.maximum(p.base, zero), w);
+        c.simple_lobe(LobeKind::burley, color, p.normal, p.roughness, false, p.base);
+    } else {
+        // Points without subsurface have the whole diffuse lobe, the others its retro-reflection.
+        const Ref3 color =
+            c.b.maximum(c.b.mix(p.base, c.color("Subsurface Color", {0.8f, 0.8f, 0.8f}), subsurface), zero);
+        const Ref on = c.b.emit(Op::greater_than, {subsurface, c.b.constant(1e-5f)}), off = c.b.one_minus(on);
+        v1_subsurface(c, p, c.b.multiply(w, on), subsurface, color);
+        c.simple_lobe(LobeKind::burley, c.b.multiply(color, c.b.multiply(w, on)), p.normal, p.roughness, true, color);
+        c.simple_lobe(LobeKind::burley, c.b.multiply(p.base, c.b.multiply(w, off)), p.normal, p.roughness, false,
+                      color);
+    }
     const Ref sheen = c.b.maximum(c.number("Sheen", 0), c.b.constant(0));
     if (c.b.is(sheen, 0)) return;
     const Ref3 hue = hue_of(c, p.base, c.b.luminance(p.base));
@@ -147,6 +170,7 @@ struct V2 {
     Ref roughness, alpha_x, alpha_y;
     Ref3 tangent;
     Ref ior;
+    Ref specular_eta;  ///< of the specular layer: the index as the specular level changes it
     bool multi_ggx = true;
 };
 
@@ -235,6 +259,7 @@ void v2_specular(NodeContext& c, V2& p) {
         const Ref dense = c.b.divide(c.b.add(one, root), c.b.one_minus(root));
         eta = c.b.select_positive(c.b.one_minus(p.ior), c.b.divide(one, dense), dense);
     }
+    p.specular_eta = eta;
     if (c.b.is(eta, 1)) return;
     GgxLobe l = c.ggx();
     l.fresnel = Fresnel::schlick;
@@ -247,6 +272,20 @@ void v2_specular(NodeContext& c, V2& p) {
     l.tangent = p.tangent;
     l.f0 = c.b.multiply(p.specular_tint, f0);
     p.weight = c.b.multiply(p.weight, c.ggx_lobe(l));
+}
+
+void v2_subsurface(NodeContext& c, const V2& p, Ref subsurface) {
+    if (c.b.is(subsurface, 0)) return;
+    const std::string method = c.text("subsurface_method", "RANDOM_WALK");
+    SubsurfaceLobe l;
+    l.albedo = p.clamped_base;
+    l.weight = c.b.multiply(c.b.multiply(p.clamped_base, p.weight), subsurface);
+    l.normal = p.normal;
+    l.radius = c.b.multiply(c.vector("Subsurface Radius", {1, 0.2f, 0.1f}), c.number("Subsurface Scale", 0.05f));
+    l.index = method == "RANDOM_WALK_SKIN" ? c.number("Subsurface IOR", 1.4f) : p.specular_eta;
+    l.anisotropy = c.number("Subsurface Anisotropy", 0);
+    l.alpha = c.b.multiply(p.roughness, p.roughness);
+    c.subsurface_lobe(l, method, false);
 }
 
 void principled_v2(NodeContext& c, Ref mix_weight) {
@@ -282,8 +321,11 @@ void principled_v2(NodeContext& c, Ref mix_weight) {
     v2_metal(c, p);
     v2_glass(c, p);
     v2_specular(c, p);
+    const Ref subsurface = c.b.saturate(c.number("Subsurface Weight", 0));
+    v2_subsurface(c, p, subsurface);
     const Ref roughness = c.b.saturate(c.number("Diffuse Roughness", 0));
-    c.simple_lobe(LobeKind::diffuse, c.b.multiply(p.base, p.weight), c.closure_normal("Normal", false), roughness,
+    const Ref3 rest = c.b.multiply(p.weight, c.b.one_minus(subsurface));
+    c.simple_lobe(LobeKind::diffuse, c.b.multiply(p.base, rest), c.closure_normal("Normal", false), roughness,
                   !c.b.is(roughness, 0), p.clamped_base);
 }
 

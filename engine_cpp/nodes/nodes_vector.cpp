@@ -2,6 +2,8 @@
 // Mapping, rotations, spaces; normals: Normal Map, Bump, Tangent, Displacement.
 #include "nodes/node_helpers.h"
 
+#include <algorithm>
+
 namespace cardioid::nodes {
 
 namespace {
@@ -114,8 +116,9 @@ Ref3 transformed(NodeContext& c, Ref3 v, Quantity quantity, Direction direction)
 
 /// Tangent of a UV map for an object-space normal, with the sign of the bitangent.
 Results uv_tangent(NodeContext& c, const std::string& name, Ref3 normal) {
-    return c.b.emit_all(Op::uv_tangent, {normal.x, normal.y, normal.z},
-                        c.attribute_id(name.empty() ? k_active_uv : name));
+    const std::string map = name.empty() ? k_active_uv : name;
+    return c.b.emit_all(Op::uv_tangent, {c.barycentric_u(), c.barycentric_v(), normal.x, normal.y, normal.z},
+                        c.attribute_id(k_tangent_prefix + map), c.attribute_id(map));
 }
 
 /// A tangent-space colour in world space, seen from the front of the surface.
@@ -135,23 +138,36 @@ Ref3 tangent_mapped(NodeContext& c, Ref3 color, Ref3 n) {
 void normal_map(NodeContext& c) {
     Builder& b = c.b;
     const std::string space = c.text("space", "TANGENT");
-    const Ref half = b.constant(0.5f), two = b.constant(2);
+    const Ref half = b.constant(0.5f), two = b.constant(2), minus = b.constant(-1);
+    const Ref strength = c.number("Strength", 1);
     Ref3 color =
         Builder::each(c.color("Color", {0.5f, 0.5f, 1}), [&](Ref x) { return b.multiply(b.subtract(x, half), two); });
+    if (c.text("convention") == "DIRECTX") color.y = b.multiply(color.y, minus);
+    // Since Blender 4.0 the strength flattens the map itself.
+    const bool flattened = space == "TANGENT" && c.property("version", 1) >= 2;
+    if (flattened)
+        color = {b.multiply(color.x, strength), b.multiply(color.y, strength),
+                 b.mix(b.constant(1), color.z, b.saturate(strength))};
     const Ref3 n = c.normal();
     Ref3 mapped;
     if (space == "TANGENT") {
         mapped = tangent_mapped(c, color, n);
     } else {
-        if (space.starts_with("BLENDER"))
-            color = {color.x, b.multiply(color.y, b.constant(-1)), b.multiply(color.z, b.constant(-1))};
+        if (space.starts_with("BLENDER")) color = {color.x, b.multiply(color.y, minus), b.multiply(color.z, minus)};
         const bool object = space == "OBJECT" || space == "BLENDER_OBJECT";
         mapped = object ? transformed(c, color, Quantity::normal, Direction::to_world) : b.normalize(color);
     }
     mapped = sided(c, mapped);
-    const Ref strength = b.maximum(c.number("Strength", 1), b.constant(0));
-    if (!b.is(strength, 1)) mapped = b.normalize(b.mix(n, mapped, strength));
+    if (!flattened && !b.is(strength, 1))
+        mapped = b.normalize(b.mix(n, mapped, b.maximum(strength, b.constant(0))));
     c.vector_out("Normal", b.emit3(Op::normalize_or, {mapped.x, mapped.y, mapped.z, n.x, n.y, n.z}));
+}
+
+/// Pixels that a step of the bump is long: the socket of Blender 4.5 and later, whose links are ignored there.
+float filter_width(NodeContext& c) {
+    const auto it = c.node.inputs.find("Filter Width");
+    if (it == c.node.inputs.end()) return 1;
+    return it->second.linked() ? 0.1f : std::max(it->second.value[0], 1e-5f);
 }
 
 void bump(NodeContext& c) {
@@ -161,11 +177,15 @@ void bump(NodeContext& c) {
         c.vector_out("Normal", n);
         return;
     }
+    const float before = c.set_step(filter_width(c));
     const Ref distance = b.multiply(c.number("Distance", 1), b.constant(c.flag("invert") ? -1.0f : 1.0f));
     const Ref height = c.number_at("Height", Shift::none, 1), x = c.number_at("Height", Shift::x, 1),
               y = c.number_at("Height", Shift::y, 1);
     const Ref3 tilted = bumped(c, n, b.subtract(x, height), b.subtract(y, height), c.number("Strength", 1), distance);
-    c.vector_out("Normal", b.emit3(Op::bend_normal, {tilted.x, tilted.y, tilted.z}));
+    c.set_step(before);
+    // Before Blender 3.6 the node itself kept reflections above the surface; later the shaders do.
+    const bool bend = c.property("version", 1) < 2;
+    c.vector_out("Normal", bend ? b.emit3(Op::bend_normal, {tilted.x, tilted.y, tilted.z}) : tilted);
 }
 
 void tangent(NodeContext& c) {
@@ -219,11 +239,10 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeVectorRotate", vector_rotate, nullptr, Support::same, ""},
     {"ShaderNodeVectorTransform", vector_transform, nullptr, Support::same, ""},
     {"ShaderNodeNormal", normal, nullptr, Support::same, ""},
-    {"ShaderNodeNormalMap", normal_map, nullptr, Support::approximated,
-     "tangents are those of the triangle, not smoothed over its neighbours"},
-    {"ShaderNodeBump", bump, nullptr, Support::approximated,
-     "the step is a pixel's width at the point; no filter width"},
-    {"ShaderNodeTangent", tangent, nullptr, Support::approximated, "UV tangents are those of the triangle"},
+    {"ShaderNodeNormalMap", normal_map, nullptr, Support::same,
+     "the smooth normal that the map turns is unit; on a displaced surface it is the displaced one"},
+    {"ShaderNodeBump", bump, nullptr, Support::same, "a Bump in the height of another one is flat at the two steps"},
+    {"ShaderNodeTangent", tangent, nullptr, Support::same, ""},
     {"ShaderNodeDisplacement", displacement, nullptr, Support::same, ""},
     {"ShaderNodeVectorDisplacement", vector_displacement, nullptr, Support::same, ""},
 };

@@ -16,6 +16,8 @@ enum LobeBits : std::uint32_t {
     lobe_layer = 1u << 14,  ///< the result is read
     lobe_separable = 1u << 15,
     lobe_thin_film = 1u << 16,
+    lobe_v1_exit = 1u << 17,      ///< subsurface of Principled version 1
+    lobe_skin_radius = 1u << 18,  ///< subsurface whose radius is that of Random Walk (Skin)
 };
 
 enum class InstanceValue : std::uint32_t {

@@ -54,6 +54,7 @@ void store_layer(const Machine& m, const Instruction& in, const Lobe& lobe, int 
 }  // namespace
 
 void op_emission(const Machine& m, const Instruction& in) { add_rows(m, in, m.out.emission); }
+void op_displacement(const Machine& m, const Instruction& in) { copy_rows(m, in, 0, m.out.displacement); }
 void op_transparent(const Machine& m, const Instruction& in) { add_rows(m, in, m.out.transparency); }
 void op_holdout(const Machine& m, const Instruction& in) {
     const Source s = m.arg(in, 0);
@@ -63,6 +64,8 @@ void op_holdout(const Machine& m, const Instruction& in) {
 void op_lobe_simple(const Machine& m, const Instruction& in) {
     Lobe& lobe = begin_lobe(m, in, m.out.lobe[m.out.lobes]);
     copy_row(m.arg(in, 6), lobe.roughness, m.end);
+    const bool toon = lobe.kind == LobeKind::toon_diffuse || lobe.kind == LobeKind::toon_glossy;
+    if (toon) copy_row(m.arg(in, 7), lobe.alpha_x, m.end);
     if (lobe.preserve_energy) copy_rows(m, in, 7, lobe.f0);
 }
 
@@ -86,6 +89,61 @@ void op_lobe_ggx(const Machine& m, const Instruction& in) {
         copy_rows(m, in, 18, lobe.tint_transmission);
     }
     if (in.imm & nodes::lobe_layer) store_layer(m, in, lobe, 21);
+}
+
+namespace {
+
+/// alpha' of the dipole whose diffuse reflectance is rd (Jensen & Buhler 2002), by bisection as Cycles does.
+Float dipole_albedo(Float rd, Float four_thirds_a) {
+    Float low = 0.0f, high = 1.0f, middle = 0.5f;
+    for (int k = 0; k < 12; ++k) {
+        middle = 0.5f * (low + high);
+        const Float s = sqrt(3.0f * (1.0f - middle));
+        const Mask under = 0.5f * middle * (1.0f + exp(-four_thirds_a * s)) * exp(-s) < rd;
+        low = select(under, middle, low);
+        high = select(under, high, middle);
+    }
+    return select(rd < Float(1e-4f), Float(0.0f), select(rd >= Float(0.995f), Float(0.999999f), middle));
+}
+
+/// Factor that turns the radius of Random Walk (Skin) into a mean free path.
+Float skin_factor(Float albedo, Float eta) {
+    const Float inv = 1.0f / eta;
+    const Float f = inv * (0.710f - 1.440f * inv) + 0.668f + 0.0636f * eta;
+    return sqrt(3.0f * (1.0f - dipole_albedo(albedo, (4.0f / 3.0f) * (1.0f + f) / (1.0f - f))));
+}
+
+}  // namespace
+
+void op_lobe_subsurface(const Machine& m, const Instruction& in) {
+    Lobe& lobe = begin_lobe(m, in, m.out.lobe[m.out.lobes]);
+    const bool of_v1 = (in.imm & nodes::lobe_v1_exit) != 0, skin = (in.imm & nodes::lobe_skin_radius) != 0;
+    copy_rows(m, in, 6, lobe.f0);
+    const Source index = m.arg(in, 12), anisotropy = m.arg(in, 13), alpha = m.arg(in, 14);
+    for (int i = 0; i < m.end; i += W) {
+        const Float eta = clamp(index.at(i), 1.01f, 3.8f);
+        store(lobe.eta + i, eta);
+        store(lobe.roughness + i, clamp(anisotropy.at(i), 0.0f, 0.9f));
+        store(lobe.alpha_x + i, saturate(alpha.at(i)));
+        store(lobe.alpha_y + i, Float(of_v1 ? 1.0f : 0.0f));
+        for (int c = 0; c < 3; ++c) {
+            const Float radius = max(m.arg(in, 9 + c).at(i), 0.0f);
+            const Float factor = skin ? skin_factor(load(lobe.f0[c] + i), eta) : Float(0.25f * k_inv_pi);
+            store(lobe.f90[c] + i, radius * factor);
+        }
+    }
+}
+
+void op_lobe_hair(const Machine& m, const Instruction& in) {
+    Lobe& lobe = begin_lobe(m, in, m.out.lobe[m.out.lobes]);
+    copy_rows(m, in, 6, lobe.tangent);
+    copy_row(m.arg(in, 9), lobe.alpha_x, m.end);
+    copy_row(m.arg(in, 10), lobe.alpha_y, m.end);
+    copy_row(m.arg(in, 11), lobe.roughness, m.end);
+    copy_row(m.arg(in, 12), lobe.eta, m.end);
+    copy_rows(m, in, 13, lobe.f0);
+    copy_rows(m, in, 16, lobe.f90);
+    copy_rows(m, in, 19, lobe.tint_transmission);
 }
 
 void op_bend_normal(const Machine& m, const Instruction& in) {

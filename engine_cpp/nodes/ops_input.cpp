@@ -235,26 +235,34 @@ void op_window(const Machine& m, const Instruction& in) {
     }
 }
 
-/// Per triangle and in object space, where Blender has its tangents.
+/// Smooth tangents where the mesh has them. Else those of the triangle, in object space, where Blender has its tangents.
 void op_uv_tangent(const Machine& m, const Instruction& in) {
-    const Source3 normal = m.arg3(in, 0);
+    const Source su = m.arg(in, 0), sv = m.arg(in, 1);
+    const Source3 normal = m.arg3(in, 2);
     for (int i = 0; i < m.end; i += W) {
-        const AttributeView uv(m.chunk, i, static_cast<int>(in.imm), 2);
-        if (none(uv.have)) {
-            store4(m, in, i, {0.0f, 0.0f, 0.0f}, 0.0f);
-            continue;
+        Vec3 tangent = {0.0f, 0.0f, 0.0f};
+        Float sign = 0.0f;
+        const AttributeView uv(m.chunk, i, static_cast<int>(in.data), 2);
+        if (any(uv.have)) {
+            const Float u0 = uv.corner(uv.e.a, 0), v0 = uv.corner(uv.e.a, 1);
+            const Float u1 = uv.corner(uv.e.b, 0) - u0, v1 = uv.corner(uv.e.b, 1) - v0;
+            const Float u2 = uv.corner(uv.e.c, 0) - u0, v2 = uv.corner(uv.e.c, 1) - v0;
+            const Float det = u1 * v2 - u2 * v1, side = copysign(1.0f, det);
+            const LaneAffine to_local = instance_affine(m.chunk, i, offsetof(InstanceInfo, world_to_object));
+            const Vec3 t = to_local.vector((load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * side);
+            const Vec3 n = normal.at(i);
+            const Mask ok = uv.have & (det != Float(0.0f));
+            tangent = select(ok, normalize(t - n * dot(n, t)), tangent);
+            sign = select(ok, side, sign);
         }
-        const Float u0 = uv.corner(uv.e.a, 0), v0 = uv.corner(uv.e.a, 1);
-        const Float u1 = uv.corner(uv.e.b, 0) - u0, v1 = uv.corner(uv.e.b, 1) - v0;
-        const Float u2 = uv.corner(uv.e.c, 0) - u0, v2 = uv.corner(uv.e.c, 1) - v0;
-        const Float det = u1 * v2 - u2 * v1;
-        const Float sign = copysign(1.0f, det);
-        const LaneAffine to_local = instance_affine(m.chunk, i, offsetof(InstanceInfo, world_to_object));
-        const Vec3 t = to_local.vector((load3(m.chunk.dp_du, i) * v2 - load3(m.chunk.dp_dv, i) * v1) * sign);
-        const Vec3 n = normal.at(i);
-        const Mask ok = uv.have & (det != Float(0.0f));
-        store4(m, in, i, select(ok, normalize(t - n * dot(n, t)), Vec3{0.0f, 0.0f, 0.0f}),
-               select(ok, sign, Float(0.0f)));
+        const AttributeView smooth(m.chunk, i, static_cast<int>(in.imm), 4);
+        if (any(smooth.have)) {
+            const Float u = su.at(i), v = sv.at(i);
+            const Vec3 t = {smooth.at(Int(0), u, v), smooth.at(Int(1), u, v), smooth.at(Int(2), u, v)};
+            tangent = select(smooth.have, t, tangent);
+            sign = select(smooth.have, smooth.at(Int(3), u, v), sign);
+        }
+        store4(m, in, i, tangent, sign);
     }
 }
 
