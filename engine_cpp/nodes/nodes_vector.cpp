@@ -158,8 +158,7 @@ void normal_map(NodeContext& c) {
         mapped = object ? transformed(c, color, Quantity::normal, Direction::to_world) : b.normalize(color);
     }
     mapped = sided(c, mapped);
-    if (!flattened && !b.is(strength, 1))
-        mapped = b.normalize(b.mix(n, mapped, b.maximum(strength, b.constant(0))));
+    if (!flattened && !b.is(strength, 1)) mapped = b.normalize(b.mix(n, mapped, b.maximum(strength, b.constant(0))));
     c.vector_out("Normal", b.emit3(Op::normalize_or, {mapped.x, mapped.y, mapped.z, n.x, n.y, n.z}));
 }
 

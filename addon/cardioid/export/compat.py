@@ -21,6 +21,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
     "voronoi_2": (5, 0),             # another hash of the cells
     "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
+    "lamps_are_objects": (4, 5),     # nodes of lamps see all of their transform
     "light_use_shadow": (4, 2),      # light.use_shadow replaces light.cycles.cast_shadow
     "emission_sampling": (3, 5),     # material.cycles.emission_sampling replaces sample_as_light
     "material_transparent_shadow": (4, 2),  # on the material; before: on material.cycles
@@ -76,6 +77,14 @@ def displacement_method(material: Any) -> str:
     """MaterialDesc.displacement_method; on the material since 4.1, on material.cycles before."""
     on_material = getattr(material, "displacement_method", None)
     return (on_material or cycles(material, "displacement_method", "BUMP")).lower()
+
+
+def terminator(obj: Any) -> tuple[float, float]:
+    """Shadow Terminator offsets of an object: geometry, shading. 4.2 and newer keep them on the object itself."""
+    geometry = getattr(obj, "shadow_terminator_geometry_offset", None)
+    if geometry is not None:
+        return geometry, obj.shadow_terminator_shading_offset
+    return cycles(obj, "shadow_terminator_geometry_offset", 0.1), cycles(obj, "shadow_terminator_offset", 0.0)
 
 
 def has_light_linking(obj: Any) -> bool:

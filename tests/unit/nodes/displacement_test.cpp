@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Displacement by Blender's three methods: bump alone, moved vertices alone, both.
+#include "nodes/compile.h"
+
+#include "nodes/chunks.h"
+#include "nodes/graphs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace cardioid {
+namespace {
+
+using nodes::Op;
+using nodes::Purpose;
+using scene::DisplacementMethod;
+
+scene::GraphDesc displaced_diffuse() {
+    test::GraphMaker m;
+    m.node("ShaderNodeTexNoise").value("Scale", {3});
+    m.node("ShaderNodeDisplacement").link("Height", 0, "Fac").value("Midlevel", {0.5f}).value("Scale", {2});
+    m.node("ShaderNodeBsdfDiffuse").value("Color", {1, 1, 1, 1});
+    auto g = m.surface("BSDF");
+    g.displacement = {1, "Displacement"};
+    return g;
+}
+
+nodes::CompiledGraph compile(DisplacementMethod method, std::vector<std::string>& names) {
+    nodes::CompileContext context;
+    context.displacement_method = method;
+    context.attribute_names = &names;
+    nodes::Warnings warnings;
+    auto g = nodes::compile(displaced_diffuse(), context, warnings);
+    EXPECT_TRUE(warnings.messages().empty());
+    return g;
+}
+
+bool knows(const std::vector<std::string>& names, const char* name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TEST(Displacement, MethodsTellBumpFromMovedVertices) {
+    for (const auto method : {DisplacementMethod::bump, DisplacementMethod::displacement, DisplacementMethod::both}) {
+        std::vector<std::string> names;
+        const auto g = compile(method, names);
+        EXPECT_EQ(g.info.has_displacement, method != DisplacementMethod::bump);
+        EXPECT_EQ(g.of(Purpose::displacement).code.empty(), method == DisplacementMethod::bump);
+        EXPECT_EQ(g.info.has_bump, method != DisplacementMethod::displacement);
+        EXPECT_EQ(knows(names, nodes::k_undisplaced), method == DisplacementMethod::both);
+        EXPECT_EQ(g.info.lobes, 1);
+    }
+}
+
+TEST(Displacement, IsTheHeightAlongTheNormal) {
+    scene::GraphDesc graph = displaced_diffuse();
+    graph.nodes[1].inputs["Height"] = {};
+    graph.nodes[1].inputs["Height"].value = {0.75f, 0, 0, 0};
+    nodes::CompileContext context;
+    context.displacement_method = DisplacementMethod::displacement;
+    nodes::Warnings warnings;
+    const auto g = nodes::compile(graph, context, warnings);
+    const auto m = std::make_unique<test::Machine>(5);
+    isa_w1::run_program(g.of(Purpose::displacement), m->chunk, m->out, m->scratch);
+    for (int i = 0; i < 5; ++i)
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(m->out.displacement[k][i], 0.5f * m->chunk.normal[k][i], 1e-6f);
+}
+
+}  // namespace
+}  // namespace cardioid
