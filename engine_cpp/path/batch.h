@@ -7,6 +7,7 @@
 #include "nodes/run.h"
 #include "nodes/shading.h"
 #include "path/partition.h"
+#include "path/subsurface_queue.h"
 #include "photon/photon.h"
 #include "photon/radius.h"
 #include "trace/scene_view.h"
@@ -51,6 +52,7 @@ inline constexpr int k_state_shift = 8;
 inline constexpr int k_layer_shift = 14;
 inline constexpr std::int32_t k_flag_last = 1 << 12;        ///< only emission counts at the next surface
 inline constexpr std::int32_t k_flag_background = 1 << 13;  ///< nothing but transparency since the camera
+inline constexpr std::int32_t k_flag_after_diffuse = 1 << 24;  ///< some bounce was diffuse: no walks under surfaces any more
 /// Photons: scene::Visibility bits of what the segment came from; lobes at its far end that it is hidden from do not see it.
 inline constexpr int k_visibility_shift = 16;
 
@@ -77,6 +79,9 @@ struct alignas(64) VertexChunk {
     std::int32_t depth[k_chunk];
     std::int32_t event[k_chunk];  ///< bounces + transparent surfaces: index of the random dimensions
 };
+
+using Subsurface = SubsurfaceQueue<k_padded>;
+using SubsurfaceExit = SubsurfaceExits<k_padded>;
 
 /// Shadow rays that wait for full packets.
 struct alignas(64) ShadowQueue {
@@ -238,6 +243,8 @@ struct alignas(64) Scratch {
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
     PathInts order;  ///< paths sorted by material
+    Subsurface walks, disks;
+    SubsurfaceExit exits;
     GatherLists gather;
     PathFloats demodulation[3];         ///< by path: I over R of what arrives at x_d along the sampled direction
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them

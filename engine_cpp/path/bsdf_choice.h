@@ -14,6 +14,8 @@ struct Choice {
     Float pdf = 0.0f;
     Mask valid, delta, transmitted, diffuse, specular, through;
     Mask took_d;         ///< a D lobe was chosen, whether or not it gave a direction
+    Mask below;          ///< a subsurface lobe was chosen: there is no direction, the path leaves elsewhere
+    Vec2 rest;           ///< where `below`: what is left of the random numbers
     Float blur = 0.0f;   ///< how far the lobe widens the pixel's cone
     Float alpha = 1.0f;  ///< of a glossy lobe
     Int lobe;
@@ -56,7 +58,8 @@ inline Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparen
     const bool physical = settings.physical_refraction;
     Choice c;
     c.wi = ng;
-    c.valid = c.delta = c.transmitted = c.diffuse = c.specular = c.took_d = mask_of(false);
+    c.valid = c.delta = c.transmitted = c.diffuse = c.specular = c.took_d = c.below = mask_of(false);
+    c.rest = u;
     c.lobe = Int(-1);
     Float sum = 0.0f;
     for (int k = 0; k < chunk.lobes; ++k) {
@@ -66,6 +69,13 @@ inline Choice sample_bsdf(const path::VertexChunk& chunk, const Float transparen
         const Float rest = clamp((u.x - sum) / max(p, 1e-30f), 0.0f, 0.99999994f);
         sum += p;
         if (none(here)) continue;
+        if (bsdf::is_subsurface(lobe.kind)) {
+            c.below |= here;
+            c.took_d |= here;
+            c.rest.x = select(here, rest, c.rest.x);
+            c.lobe = select(here, Int(k), c.lobe);
+            continue;
+        }
         const Mask specular = is_specular(lobe, i, caustic_roughness);
         const LobeSample s = sample_lobe(lobe, i, wo, ng, {rest, u.y, side}, here);
         const Spectrum f = carried_value(chunk, lobe, i, wo, s.wi, ng, s.f_cos, s.delta, transport, physical);

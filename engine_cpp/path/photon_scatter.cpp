@@ -105,7 +105,7 @@ void PhotonWalk::shade(int material, const std::int32_t* list, int n) {
     const trace::MaterialView& m = scene.materials[material];
     nodes::SurfaceOutput& out = scratch.surface;
     scratch.arena.reset();
-    const auto lobes = static_cast<std::size_t>(m.info.lobes);
+    const auto lobes = static_cast<std::size_t>(room_for_lobes(m.info));
     auto* chunk = scratch.arena.allocate<path::VertexChunk>(1);
     auto* lobe = scratch.arena.allocate<bsdf::Lobe>(lobes);
     auto* pick = scratch.arena.allocate<Row>(lobes);
@@ -118,6 +118,8 @@ void PhotonWalk::shade(int material, const std::int32_t* list, int n) {
     chunk->lobe = lobe;
     chunk->pick = pick;
     chunk->own_normals = m.info.own_normals;
+    // Camera paths take subsurface scattering after a diffuse bounce for diffuse; photons always do.
+    if (m.info.has_subsurface) add_twins(*chunk, list, true);
     for (int c = 0; c < 3; ++c) {
         for (int i = 0; i < n; i += W) store(chunk->normal[c] + i, load(scratch.shading.normal[c] + i));
     }

@@ -31,8 +31,7 @@ void blur_glossy(bsdf::Lobe& lobe, int i, Float least_alpha) {
 
 }  // namespace
 
-path::VertexChunk* Tracer::new_record(int material) {
-    const int lobes = scene.materials[material].info.lobes;
+path::VertexChunk* Tracer::new_record(int lobes) {
     for (int attempt = 0; attempt < 2; ++attempt) {
         const std::size_t mark = scratch.arena.mark();
         auto* chunk = scratch.arena.allocate<path::VertexChunk>(1);
@@ -67,7 +66,7 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     const trace::MaterialView& m = scene.materials[material];
     nodes::SurfaceOutput& out = scratch.surface;
     // First of all: a full arena is emptied by evaluating direct light, which uses the same scratch.
-    path::VertexChunk* chunk = new_record(material);
+    path::VertexChunk* chunk = new_record(room_for_lobes(m.info));
     if (!chunk) return;
     fill_shading(material, list, n);
     out.lobe = chunk->lobe;
@@ -79,12 +78,16 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     chunk->lobes = out.lobes;
     chunk->own_normals = chunk->all_sides = m.info.own_normals;
     for (int k = 0; k < out.lobes; ++k) chunk->all_sides |= bsdf::sends_light_through(out.lobe[k].kind);
+    if (m.info.has_subsurface) add_twins(*chunk, list, false);
     scatter(*chunk, list);
     if (scratch.log) log_vertices(*chunk, material);
-    if (chunk->lobes > 0 && scene.has_lights) {
-        *scratch.last_chunk = chunk;
-        scratch.last_chunk = &chunk->next;
-    }
+    keep_record(chunk);
+}
+
+void Tracer::keep_record(path::VertexChunk* chunk) {
+    if (chunk->lobes == 0 || !scene.has_lights) return;
+    *scratch.last_chunk = chunk;
+    scratch.last_chunk = &chunk->next;
 }
 
 void Tracer::log_vertices(const path::VertexChunk& chunk, int material) {

@@ -9,7 +9,7 @@ void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path
     scratch.arena.reset();
     scratch.first_chunk = nullptr;
     scratch.last_chunk = &scratch.first_chunk;
-    scratch.shadows.n = 0;
+    scratch.shadows.n = scratch.walks.n = scratch.disks.n = 0;
     tracer.start();
     for (int event = 0; event < k_max_events && tracer.now->n > 0; ++event) {
         if (scratch.cancelled && scratch.cancelled->load(std::memory_order_relaxed)) return;
@@ -25,6 +25,7 @@ void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path
                 tracer.shade(material, list, n);
             }
         });
+        if (scratch.walks.n + scratch.disks.n > 0) tracer.walk_subsurface();
         tracer.swap_rays();
     }
     tracer.add_direct_light();

@@ -37,7 +37,14 @@ struct Walk {
 
     // points.cpp: the shading chunk of rays at one material.
     void fill_shading(int material, const std::int32_t* rays, int n);
+
+    // subsurface_enter.cpp: gives every subsurface lobe a diffuse one, which has its place where the path was diffuse before, where
+    // a channel's radius is nothing, or everywhere (photons).
+    void add_twins(path::VertexChunk& chunk, const std::int32_t* rays, bool all_diffuse);
 };
+
+/// Lobes of a material's chunks, twins of subsurface lobes included.
+inline int room_for_lobes(const nodes::ProgramInfo& info) { return info.has_subsurface ? 2 * info.lobes : info.lobes; }
 
 struct Choice;
 struct DetailSum;
@@ -63,16 +70,34 @@ struct Tracer : Walk {
 
     // shade.cpp: one chunk of at most 64 rays at one material.
     void shade(int material, const std::int32_t* rays, int n);
-    void scatter(path::VertexChunk& chunk, const std::int32_t* rays);
     void apply_holdout(Int path, Spectrum throughput, Float holdout, Mask lanes);
+    /// What Cycles' settings do to lobes: caustics switched off, Filter Glossy.
+    void adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf);
+    /// Room for a chunk; null if it could never fit.
+    path::VertexChunk* new_record(int lobes);
+    /// Its direct light is evaluated later.
+    void keep_record(path::VertexChunk* chunk);
+    void write_first_hit(const std::int32_t* rays, int n);
+    void log_vertices(const path::VertexChunk& chunk, int material);
+
+    // scatter.cpp: ways on from a chunk.
+    void scatter(path::VertexChunk& chunk, const std::int32_t* rays);
+    /// Appends the rays that c says, or that pass straight through with throughput `passed`. `scatters`: the lanes that are vertices.
+    void send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask scatters, Float chance, Spectrum passed);
     /// Growth of the pixel's cone after the vertex; with photons, curved mirrors and glass bend it too.
     Float spread_after(const path::VertexChunk& chunk, int i, const Choice& c, Int flags, Float width,
                        Float spread) const;
-    /// What Cycles' settings do to lobes: caustics switched off, Filter Glossy.
-    void adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf);
-    path::VertexChunk* new_record(int material);
-    void write_first_hit(const std::int32_t* rays, int n);
-    void log_vertices(const path::VertexChunk& chunk, int material);
+
+    // subsurface_*.cpp: light that leaves elsewhere than it enters.
+    /// Queues the paths that chose a subsurface lobe.
+    void enter_subsurface(const path::VertexChunk& chunk, int i, Int ray, const Choice& c, Mask entering);
+    /// Runs the queued walks and goes on from where they end; after all chunks of a bounce.
+    void walk_subsurface();
+    void step_walks(int step, int i, int end);
+    /// Burley: a point near the entry.
+    void project_disk(int i);
+    void leave_subsurface();
+    void leave_chunk(const std::int32_t* exits, int n, bool fresnel);
 
     // layers.cpp: incident light at x_d, for clusters and filter (thesis 6.2).
     /// Texture detail, normal and depth of the vertices that may be x_d; `flags` of the arriving rays.
