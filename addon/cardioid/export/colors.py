@@ -16,9 +16,12 @@ import bpy
 
 _STANDARD = {"sRGB", "Linear", "Linear Rec.709", "Linear BT.709", "Non-Color", "Raw", "scene_linear"}
 _READABLE = (2, 1)  # the oldest OpenColorIO that the engine is built with
-_DROPPED = ("displays", "view_transforms", "looks", "active_displays", "active_views", "inactive_colorspaces",
-            "viewing_rules", "file_rules", "shared_views", "virtual_display", "default_view_transform")
+_DROPPED = ("displays", "looks", "active_displays", "active_views", "inactive_colorspaces", "viewing_rules",
+            "file_rules", "shared_views", "virtual_display")
 _UNKNOWN = r"^[ \t]+(interop_id|amf_transform_ids|icc_profile_name|interchange):.*\n"  # attributes of newer versions
+
+
+_NEWER_STYLES = r"style:[^}\n]*ACES-OUTPUT[^}\n]*_2\.0"  # built-in transforms
 
 
 def working_space() -> str | None:
@@ -53,11 +56,12 @@ def role(text: str, name: str) -> str | None:
 
 
 def simplified(text: str, folder: str, space: str | None) -> str:
-    """Roles and colour spaces of a configuration in `folder`, at a version that old libraries read; `space` becomes the
-    scene-linear role."""
+    """Roles and spaces of a configuration in `folder`, at a version that old libraries read; `space` becomes the
+    scene-linear role. The view transforms stay, since display spaces are reached through them."""
     blocks = re.split(r"^(?=[A-Za-z_]\w*:)", text, flags=re.MULTILINE)
     kept = [b for b in blocks if b.partition(":")[0] not in (*_DROPPED, "search_path", "ocio_profile_version")]
-    body = re.sub(_UNKNOWN, "", "".join(kept), flags=re.MULTILINE)
+    entries = re.split(r"^(?=[ \t]*- !<(?:ColorSpace|ViewTransform)>|[A-Za-z_]\w*:)", "".join(kept), flags=re.MULTILINE)
+    body = re.sub(_UNKNOWN, "", "".join(e for e in entries if not re.search(_NEWER_STYLES, e)), flags=re.MULTILINE)
     if space:
         body = re.sub(r"^([ \t]+scene_linear:[ \t]*).*$", lambda m: m[1] + space, body, flags=re.MULTILINE)
     major, minor = min(version(text), _READABLE)
