@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+import atexit
 import fnmatch
+import functools
 import json
 import os
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -19,6 +22,8 @@ HERE = Path(__file__).resolve().parent
 SECONDS = 240.0
 """A Blender that takes longer is stopped and its batch has failed."""
 NOISY_SAMPLES = 400
+SAMPLES = {"CYCLES": 1, "CARDIOID": 16}
+"""Cycles' first sample is the pixel's centre; Cardioid's many lie around it, within stage.FILTER, and are averaged."""
 WARNING = "Material “"
 
 
@@ -38,9 +43,19 @@ def command(host: hosts.Host, argument: str) -> list[str]:
     return [own if part == theirs else part for part in host.command] + [argument]
 
 
+@functools.cache
+def addon() -> Path:
+    """A copy of the add-on, so that a build meanwhile does not change the engine between two Blenders."""
+    folder = Path(tempfile.mkdtemp(prefix="compare-nodes-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    shutil.copytree(HERE.parents[1] / "addon", folder / "addon", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder / "addon"
+
+
 def start(host: hosts.Host, argument: str, folder: str) -> tuple[int, str]:
     """Runs a Blender with preferences of its own; its exit code and what it printed."""
     environment = {f"BLENDER_USER_{part}": folder for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES")}
+    environment["CARDIOID_ADDON"] = str(addon())
     log = Path(folder) / "log"
     with log.open("w") as out:
         process = subprocess.Popen(
@@ -88,7 +103,7 @@ def render_batch(host: hosts.Host, engine: str, names: list[str], noisy: bool, r
     with tempfile.TemporaryDirectory() as folder:
         task, out = Path(folder) / "task.json", Path(folder) / "out"
         task.write_text(json.dumps({
-            "engine": engine, "cases": names, "samples": NOISY_SAMPLES if noisy else 1, "out": str(out),
+            "engine": engine, "cases": names, "samples": NOISY_SAMPLES if noisy else SAMPLES[engine], "out": str(out),
             "moved": engine == "CYCLES" and not noisy,
         }))  # fmt: skip
         code, text = start(host, str(task), folder)

@@ -3,8 +3,8 @@
 
 A pixel agrees when each channel has |a - b| <= tolerance · max(|a|, |b|, floor). One that does not is explained when
 Cycles does not keep to its own value either: when its inputs move by two millionths, or its sample by a hundredth of a
-pixel (the step of a floor, a hash of a fraction, the pole of a tangent). A tile passes when 99.9 % of its pixels agree or are
-explained, and no more than 5 % had to be explained. Noisy tiles (ambient occlusion, bevel) compare their means.
+pixel (the step of a floor, a hash of a fraction, the pole of a tangent). A tile passes when 99.9 % of its pixels agree
+or are explained, and no more than 5 % had to be explained. Noisy tiles (ambient occlusion, bevel) compare their means.
 """
 
 from __future__ import annotations

@@ -74,6 +74,7 @@ def main() -> int:
     parser.add_argument("--text", type=Path, help="also write each host's lines to this folder")
     parser.add_argument("--quick", action="store_true", help="one case of each kind, in Debian's Blender")
     options = parser.parse_args()
+    batches.addon()
     found, missing = hosts.find()
     wanted = options.host or (["3.4"] if options.quick else [h.name for h in found])
     found = [h for h in found if h.name in wanted]

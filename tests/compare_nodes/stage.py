@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tiles before the camera: one mesh per stage, one object per case, and the settings that make samples agree.
 
-A tile is a square of one metre and PIXELS² pixels; each pixel has a face of its own. The camera looks down at the centres
-of the pixels. Stages: `flat` lies in the plane; `facets` has faces turned as on a dome, `back` the same seen from behind;
-`dome` is one smooth surface; `placed` is a dome whose object is turned and stretched; `through` lies behind a transparent
-plane, `glass` behind a refracting one without effect, `mirror` stands and is seen in a mirror.
+A tile is a square of one metre and PIXELS² pixels; each pixel has a face of its own. The camera looks down at the
+centres of the pixels: Cycles' first sample is there, and a narrow filter keeps Cardioid's within FILTER. Stages: `flat`
+lies in the plane; `facets` has faces turned as on a dome, `back` the same seen from behind; `dome` is one smooth
+surface, `coarse` one of few faces; `placed` is a dome whose object is turned and stretched; `roof` is folded, `sheet`
+flat and joined; `through` lies behind a transparent plane, `glass` behind a refracting one without effect, `mirror`
+stands and is seen in a mirror.
 """
 
 from __future__ import annotations
@@ -16,44 +18,57 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 PIXELS = 32
-STEP = 1.0 / PIXELS
 FILTER = 0.01
+"""Width of the pixel filter, in pixels; the camera moves by as much to see how firmly a value stands."""
 NUDGE = 2e-6
 """The share by which swept values are moved to see how firmly a pixel's value stands."""
 PLACE = Matrix.Rotation(0.4, 4, "Z") @ Matrix.Rotation(0.3, 4, "X") @ Matrix.Diagonal((1.5, 0.8, 1.2, 1.0))
-KINDS = ("flat", "facets", "back", "dome", "placed", "through", "glass", "mirror")
+KINDS = ("flat", "facets", "back", "dome", "coarse", "placed", "roof", "sheet", "through", "glass", "mirror")
+JOINED = ("dome", "coarse", "placed", "roof", "sheet")
+COARSE, FINE = 5, 24
+"""Faces along a side of `coarse`, and of the other surfaces whose faces share points."""
 
 
-def values() -> dict[str, np.ndarray]:
+def side(kind: str) -> int:
+    """Faces along a side."""
+    return COARSE if kind == "coarse" else FINE if kind in JOINED else PIXELS
+
+
+def values(n: int = PIXELS) -> dict[str, np.ndarray]:
     """The UV layers that do not change within a face: (faces, 2), faces row by row from the bottom."""
-    row, column = np.divmod(np.arange(PIXELS * PIXELS), PIXELS)
-    unit = np.stack([column, row], 1) / (PIXELS - 1)
-    mixed = np.stack([(column * 19 + row * 7) % PIXELS, (column * 5 + row * 13 + 3) % PIXELS], 1) / (PIXELS - 1)
+    row, column = np.divmod(np.arange(n * n), n)
+    unit = np.stack([column, row], 1) / (n - 1)
+    mixed = np.stack([(column * 19 + row * 7) % n, (column * 5 + row * 13 + 3) % n], 1) / (n - 1)
 
     def wide(x: np.ndarray) -> np.ndarray:
         y = 5.0 * x - 2.0
-        return np.where(np.abs(y) < 2.5 / (PIXELS - 1), 0.0, y)
+        return np.where(np.abs(y) < 2.5 / (n - 1), 0.0, y)
 
     return {"UVMap": unit, "Wide": wide(unit), "Mixed": wide(mixed), "MixedUnit": mixed}
 
 
 def faces_of(kind: str) -> tuple[np.ndarray, np.ndarray]:
     """Corners of every pixel's face, (faces, 4, 3), and Smooth's UVs, (faces, 4, 2)."""
-    row, column = np.divmod(np.arange(PIXELS * PIXELS), PIXELS)
-    x = (column[:, None] + np.array([0, 1, 1, 0])) * STEP
-    y = (row[:, None] + np.array([0, 0, 1, 1])) * STEP
+    n = side(kind)
+    row, column = np.divmod(np.arange(n * n), n)
+    x = (column[:, None] + np.array([0, 1, 1, 0])) / n
+    y = (row[:, None] + np.array([0, 0, 1, 1])) / n
+    if kind in JOINED:
+        y = y - (1 / 128 if kind == "coarse" else 1 / 16) / n  # no edge through the centre of a pixel
     z = np.zeros_like(x)
     smooth = np.stack([x, y], -1)
     if kind in ("facets", "back"):
-        nx, ny = 1.9 * ((column + 0.5) * STEP - 0.5), 1.8 * ((row + 0.5) * STEP - 0.47)
+        nx, ny = 1.9 * ((column + 0.5) / n - 0.5), 1.8 * ((row + 0.5) / n - 0.47)
         length = np.maximum(np.hypot(nx, ny), 1e-9)
         sine = np.minimum(length, 1.0) * 0.985
         slope = sine / np.sqrt(1.0 - sine**2) / length
         z = -slope[:, None] * (
             nx[:, None] * (x - x.mean(1, keepdims=True)) + ny[:, None] * (y - y.mean(1, keepdims=True))
         )
-    elif kind in ("dome", "placed"):
+    elif kind in ("dome", "coarse", "placed"):
         z = 0.6 * np.sqrt(1.02 - 1.7 * (x - 0.5) ** 2 - 1.4 * (y - 0.45) ** 2) + 0.1 * np.sin(5 * x + 3 * y)
+    elif kind == "roof":
+        z = 0.8 * np.abs(np.abs(x - 0.25) - 0.5)
     elif kind == "mirror":  # the wall that the mirror z = x shows: straight up at x = 0
         x, z = np.zeros_like(x), x
     corners = np.stack([x, y, z], -1)
@@ -62,7 +77,7 @@ def faces_of(kind: str) -> tuple[np.ndarray, np.ndarray]:
 
 def mesh(kind: str) -> bpy.types.Mesh:
     corners, smooth = faces_of(kind)
-    joined = kind in ("dome", "placed")
+    joined = kind in JOINED
     if joined:
         points, index = np.unique(corners.reshape(-1, 3).round(9), axis=0, return_inverse=True)
         index = index.reshape(-1, 4)
@@ -77,14 +92,15 @@ def mesh(kind: str) -> bpy.types.Mesh:
     cover = {"through": 0.5, "glass": 0.5, "mirror": None}
     if kind in cover:
         height = cover[kind]
-        low, high = (0.0, 1.0) if height is None else (height, height)
+        left, right = (0.0, 1.0) if height is None else (height, height)
+        low, high = 0.007, 1.013  # no diagonal through the centre of a pixel
         first = len(points)
-        points += [(0, 0, low), (1, 0, high), (1, 1, high), (0, 1, low)]
+        points += [(0, low, left), (1, low, right), (1, high, right), (0, high, left)]
         polygons.append((first, first + 1, first + 2, first + 3))
     data = bpy.data.meshes.new(kind)
     data.from_pydata(points, [], polygons)
-    count = PIXELS * PIXELS
-    if joined:
+    count = len(corners)
+    if joined and kind not in ("roof", "sheet"):
         data.polygons.foreach_set("use_smooth", [True] * len(polygons))
     if len(polygons) > count:
         data.polygons[count].material_index = 1
@@ -103,6 +119,7 @@ def _attributes(data: bpy.types.Mesh, smooth: np.ndarray, count: int) -> None:
     nudge(data, 0.0)
     data.uv_layers.active = data.uv_layers["UVMap"]
     data.uv_layers["UVMap"].active_render = True
+    data["my_number"], data["of_mesh"] = 0.1, 0.35
     rng = np.random.default_rng(7)
     faces = len(data.polygons)
     for name, kind, domain in (
@@ -145,8 +162,9 @@ def _fill(attribute, kind: str, rng, count: int, data: bpy.types.Mesh) -> None:
 
 
 def nudge(data: bpy.types.Mesh, amount: float) -> None:
-    """Writes the swept layers, each moved by another share of about `amount`: what is 0 stays 0, what is equal differs."""
-    for number, (name, plain) in enumerate(values().items()):
+    """Writes the swept layers, each moved by another share of about `amount`: 0 stays 0, equal values differ."""
+    n = math.isqrt(len(data.polygons))
+    for number, (name, plain) in enumerate(values(n).items()):
         moved = plain * (1.0 + amount * np.array([1.0 - 0.2 * number, -0.9 + 0.2 * number]))
         corners = np.zeros((len(data.loops), 2), np.float32)
         corners[: len(plain) * 4] = np.repeat(moved, 4, axis=0)
@@ -163,6 +181,12 @@ def camera(columns: int, rows: int) -> None:
     scene.collection.objects.link(eye)
     scene.camera = eye
     scene.render.resolution_x, scene.render.resolution_y = columns * PIXELS, rows * PIXELS
+
+
+def move_camera(amount: float) -> None:
+    eye = bpy.context.scene.camera
+    eye.location.x += amount * FILTER / PIXELS
+    eye.location.y -= 0.7 * amount * FILTER / PIXELS
 
 
 def cover_material(kind: str) -> bpy.types.Material:
@@ -201,6 +225,7 @@ def place(name: str, kind: str, material: bpy.types.Material, column: int, row: 
         data.materials[1] = meshes[kind, "cover"]
     item.matrix_world = Matrix.Translation(Vector((column, row, 0))) @ (PLACE if kind == "placed" else Matrix())
     item.pass_index, item.color = 7, (0.2, 0.5, 0.9, 0.7)
+    item["my_number"], item["my_color"], item["my_whole"] = 0.65, (0.9, 0.3, 0.1), 12
     bpy.context.scene.collection.objects.link(item)
     return item
 

@@ -24,6 +24,7 @@ class Tile:
         self.material, self.tree, self.folder = material, material.node_tree, folder
         self.tree.nodes.clear()
         self._known: dict[Any, Any] = {}
+        self.displacement: Any = None
 
     def node(self, kind: str, inputs: dict | None = None, setup: Callable[[Any], None] | None = None, **properties):
         """Adds ShaderNode<kind>; inputs by identifier, name or number; values are constants, sockets or sources."""
@@ -63,9 +64,17 @@ class Tile:
         """An operation of Vector Math; Scale's factor is its fourth input."""
         return self.output(self.node("VectorMath", dict(enumerate(values)), operation=operation))
 
+    def displace(self, value, method: str = "BUMP") -> None:
+        """Links the material's displacement; method: BUMP, DISPLACEMENT or BOTH."""
+        self.displacement = value
+        owner = self.material if hasattr(self.material, "displacement_method") else self.material.cycles
+        assign(owner, "displacement_method", method)
+
     def emit(self, value) -> None:
         emission = self.node("Emission", {"Color": value, "Strength": 1.0})
         end = self.node("OutputMaterial")
+        if self.displacement is not None:
+            self.tree.links.new(self.displacement, end.inputs["Displacement"])
         self.tree.links.new(emission.outputs[0], end.inputs["Surface"])
 
 

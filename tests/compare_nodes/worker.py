@@ -5,9 +5,9 @@
     python worker.py -- TASK.json          (with the bpy wheel)
 
 TASK.json: {"engine": "CYCLES" or "CARDIOID", "cases": [names], "samples": n, "moved": bool, "out": path}. `out` (.npz)
-gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, two more with other seeds and with
-the swept values moved by ±NUDGE. Beside it `out`.json: the cases in order, and those that this Blender cannot build
-with the reason.
+gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, two more with the swept values
+moved by ±NUDGE and the camera by a hundredth of a pixel. Beside it `out`.json: the cases in order, and those that this
+Blender cannot build with the reason.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import bpy  # first: in a wheel its libraries must load before the engine's
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path[:0] = [str(HERE), str(ROOT / "tests" / "render"), str(ROOT / "scenes"), str(ROOT / "addon")]
+sys.path[:0] = [str(HERE), str(ROOT / "tests" / "render"), str(ROOT / "scenes"), os.environ.get("CARDIOID_ADDON", str(ROOT / "addon"))]
 
 import addon_utils  # noqa: E402
 import kit  # noqa: E402
@@ -36,7 +36,7 @@ from tile import Tile  # noqa: E402
 
 def settings(scene: bpy.types.Scene, engine: str) -> None:
     cycles = scene.cycles
-    cycles.pixel_filter_type, cycles.filter_width = "BOX", stage.FILTER
+    cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", stage.FILTER
     scene.view_settings.view_transform = "Standard"
     scene.render.use_persistent_data = False
     scene.render.engine = engine
@@ -72,6 +72,8 @@ def build(names: list[str], folder: str) -> tuple[list[str], dict[str, str], dic
         material.pass_index = 3
         materials[name] = material
         built.append(name)
+    scene = bpy.context.scene
+    scene["of_scene"], scene.world["of_world"], bpy.context.view_layer["of_layer"] = 0.4, 0.7, (0.2, 0.5, 0.3)
     columns, _ = stage.grid(len(built))
     for i, name in enumerate(built):
         stage.place(name, registry.CASES[name].stage, materials[name], i % columns, i // columns, meshes)
@@ -107,11 +109,11 @@ def run(task: dict, folder: str) -> None:
     stage.camera(*stage.grid(len(built)))
     settings(scene, task["engine"])
     pictures = [picture(folder, len(built))]
-    for seed, amount in ((1, stage.NUDGE), (2, -stage.NUDGE)) if task["moved"] else ():
-        scene.cycles.seed = seed
+    for amount in (1.0, -1.0) if task["moved"] else ():
+        stage.move_camera(amount)
         for kind in stage.KINDS:
             if kind in meshes:
-                stage.nudge(meshes[kind], amount)
+                stage.nudge(meshes[kind], amount * stage.NUDGE)
         pictures.append(picture(folder, len(built)))
     np.savez(task["out"], pixels=np.array(pictures))
 

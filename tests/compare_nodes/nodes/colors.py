@@ -15,7 +15,8 @@ COLORS = {"A_Color": COL, "B_Color": COL2}
 for blend in BLENDS:
     mix = {"data_type": "RGBA", "blend_type": blend}
     row(f"mix/{blend}", "Mix", {"Factor_Float": FACTOR, **COLORS}, "Result_Color", **mix)
-    row(f"mix/{blend}/free factor", "Mix", {"Factor_Float": FACTOR, **COLORS}, "Result_Color", clamp_factor=False, **mix)
+    row(f"mix/{blend}/free factor", "Mix", {"Factor_Float": FACTOR, **COLORS}, "Result_Color", clamp_factor=False,
+        **mix)  # fmt: skip
     row(f"mix/{blend}/clamp, wide", "Mix", {"Factor_Float": 0.7, "A_Color": VEC, "B_Color": VEC2}, "Result_Color",
         clamp_result=True, **mix)  # fmt: skip
     row(f"mix/{blend}/wide", "Mix", {"Factor_Float": 0.7, "A_Color": VEC, "B_Color": VEC2}, "Result_Color", **mix)

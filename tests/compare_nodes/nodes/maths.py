@@ -7,7 +7,8 @@ from registry import row
 from tile import P1, U1, V1, VEC, VEC2, VEC3, P, Q, U, V, scaled
 
 ONE = ("SQRT", "INVERSE_SQRT", "ABSOLUTE", "EXPONENT", "SIGN", "ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT", "SINE",
-       "COSINE", "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "SINH", "COSH", "TANH", "RADIANS", "DEGREES")  # fmt: skip
+       "COSINE", "TANGENT", "ARCSINE", "ARCCOSINE", "ARCTANGENT", "SINH", "COSH", "TANH", "RADIANS",
+       "DEGREES")  # fmt: skip
 TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "POWER", "LOGARITHM", "MINIMUM", "MAXIMUM", "LESS_THAN",
        "GREATER_THAN", "MODULO", "FLOORED_MODULO", "SNAP", "PINGPONG", "ARCTAN2")  # fmt: skip
 THREE = ("MULTIPLY_ADD", "COMPARE", "SMOOTH_MIN", "SMOOTH_MAX", "WRAP")
@@ -35,7 +36,7 @@ for a, b in ((2.5, -1.25), (-0.5, 0.5), (0.0, 0.0)):
 VECTORS_ONE = ("NORMALIZE", "LENGTH", "ABSOLUTE", "FLOOR", "CEIL", "FRACTION", "SINE", "COSINE", "TANGENT", "SIGN")
 VECTORS_TWO = ("ADD", "SUBTRACT", "MULTIPLY", "DIVIDE", "CROSS_PRODUCT", "PROJECT", "REFLECT", "DOT_PRODUCT",
                "DISTANCE", "MINIMUM", "MAXIMUM", "MODULO", "SNAP", "POWER")  # fmt: skip
-VECTORS_THREE = ("MULTIPLY_ADD", "FACEFORWARD", "WRAP")
+VECTORS_THREE = ("MULTIPLY_ADD", "FACEFORWARD")
 
 for name in VECTORS_ONE:
     row(f"vector math/{name}", "VectorMath", {0: VEC}, None, operation=name)
@@ -44,6 +45,7 @@ for name in VECTORS_TWO:
     row(f"vector math/{name}/constant", "VectorMath", {0: VEC, 1: (0.7, -1.2, 0.0)}, None, operation=name)
 for name in VECTORS_THREE:
     row(f"vector math/{name}", "VectorMath", {0: VEC, 1: VEC2, 2: VEC3}, None, operation=name)
+row("vector math/WRAP", "VectorMath", {0: VEC, 1: (1.3, -0.8, 1.0), 2: VEC2}, None, operation="WRAP")
 row("vector math/SCALE", "VectorMath", {0: VEC, "Scale": Q}, None, operation="SCALE")
 row("vector math/REFRACT", "VectorMath", {0: VEC, 1: VEC2, "Scale": scaled(P1, 0.5, 1.6)}, None, operation="REFRACT")
 row("vector math/NORMALIZE/constant", "VectorMath", {0: (0.0, 0.0, 0.0)}, None, operation="NORMALIZE")
@@ -65,7 +67,7 @@ for kind in ("LINEAR", "STEPPED", "SMOOTHSTEP", "SMOOTHERSTEP"):
     vector = {"Vector": VEC, "From_Min_FLOAT3": VEC2, "From_Max_FLOAT3": (1.0, 2.0, 0.5), "To_Min_FLOAT3": VEC3,
               "To_Max_FLOAT3": (-1.0, 3.0, 0.2)}  # fmt: skip
     if steps:
-        vector["Steps_FLOAT3"] = (2.0, 3.5, 0.0)
+        vector |= {"Steps_FLOAT3": (2.0, 3.5, 0.0), "From_Min_FLOAT3": (-1.2, 0.3, -2.0)}
     for clamp in (True, False):
         row(f"map range/vector {kind}/{'clamp' if clamp else 'free'}", "MapRange", vector, "Vector",
             data_type="FLOAT_VECTOR", interpolation_type=kind, clamp=clamp)  # fmt: skip

@@ -36,8 +36,8 @@ for size in DIMENSIONS:
         "Color", voronoi_dimensions=size, tolerance=NOISE)  # fmt: skip
 for metric in METRICS:
     row(f"voronoi/normalize {metric}", "TexVoronoi",
-        {"Vector": VEC, "Scale": 2.0, "Detail": 1.5, **({"Exponent": 0.6} if metric == "MINKOWSKI" else {})}, "Distance",
-        distance=metric, normalize=True, feature="F2", tolerance=NOISE)  # fmt: skip
+        {"Vector": VEC, "Scale": 2.0, "Detail": 1.5, **({"Exponent": 0.6} if metric == "MINKOWSKI" else {})},
+        "Distance", distance=metric, normalize=True, feature="F2", tolerance=NOISE)  # fmt: skip
 row("voronoi/linked", "TexVoronoi",
     {"Vector": VEC, "Scale": scaled(V1, -1.0, 3.0), "Randomness": scaled(P1, -0.3, 1.3)}, "Distance",
     tolerance=NOISE)  # fmt: skip
