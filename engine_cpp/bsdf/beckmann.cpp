@@ -7,16 +7,6 @@ namespace cardioid::CD_ISA_NS {
 
 namespace {
 
-/// Abramowitz & Stegun 7.1.26, absolute error 1.5e-7; x ≥ 0.
-Float erf_positive(Float x) {
-    const Float t = 1.0f / fma(x, 0.3275911f, 1.0f);
-    Float p = fma(t, 1.061405429f, -1.453152027f);
-    p = fma(p, t, 1.421413741f);
-    p = fma(p, t, -0.284496736f);
-    p = fma(p, t, 0.254829592f);
-    return 1.0f - p * t * exp(-x * x);
-}
-
 /// Giles 2010, relative error 4e-6 in (-1, 1).
 Float inverse_erf(Float x) {
     x = clamp(x, -0.9999999f, 0.9999999f);
@@ -47,7 +37,7 @@ Vec3 Facets::sample_beckmann(Vec3 v, Float u0, Float u1) const {
     constexpr float k_inv_sqrt_pi = 0.56418958354f;
     const Float cosine = max(v.z, 1e-4f), sine = sqrt(sqr(v.x) + sqr(v.y));
     const Float tangent = sine / cosine, cotangent = cosine / max(sine, 1e-6f);
-    const Float edge = erf_positive(cotangent), k = tangent * k_inv_sqrt_pi;
+    const Float edge = 1.0f - erfc_positive(cotangent), k = tangent * k_inv_sqrt_pi;
     const Float goal = u0 * (1.0f + edge + k * exp(-cotangent * cotangent));
     // 1 + b + k·exp(-erf⁻¹(b)²) rises from 0 at b = -1 to its maximum at b = edge.
     Float low = -1.0f, high = edge, b = 0.5f * (edge - 1.0f), slope = 0.0f;

@@ -185,8 +185,9 @@ LobeEval eval_broad(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng) {
 
 LobeSample sample_broad(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 ng, Vec3 u, Mask active) {
     const Vec3 wi = broad_direction(lobe, i, wo, u);
-    const Mask ok = active & broad_domain(lobe, i, wo, wi, ng);
     const Value v = broad_value(lobe, i, wo, wi);
+    // A toon's rim may round to the outside.
+    const Mask ok = active & broad_domain(lobe, i, wo, wi, ng) & (v.pdf > Float(0.0f));
     const Mask transmitted = lobe.kind == LobeKind::translucent ? ok : mask_of(false);
     return {wi,
             load_rgb(lobe.weight, i) * select(ok, v.f_cos, Float(0.0f)),

@@ -19,14 +19,15 @@ Float bessel_i0(Float x) {
     return sum;
 }
 Float log_bessel_i0(Float x) {
-    const Float large = x + 0.5f * (0.125f / max(x, 1.0f) - 1.8378770664f - log(max(x, 1.0f)));
+    const Float y = 1.0f / max(x, 1.0f);
+    const Float large = x - 0.5f * (1.8378770664f - log(y)) + y * (0.125f + 0.0625f * y);
     return select(x > Float(12.0f), large, log(bessel_i0(min(x, 12.0f))));
 }
 
 /// Density of sin θi around the tilted direction (sin_o, cos_o), with variance v.
 Float longitudinal(Float sin_i, Float cos_i, Float sin_o, Float cos_o, Float v) {
     const Float inv = 1.0f / v, cos_part = cos_i * cos_o * inv, sin_part = sin_i * sin_o * inv;
-    const Float narrow = exp(log_bessel_i0(cos_part) - sin_part - inv + 0.6931f + log(0.5f * inv));
+    const Float narrow = exp(log_bessel_i0(cos_part) - sin_part - inv + log(inv));
     const Float wide_inv = min(inv, 10.0f);
     const Float sinh = 0.5f * (exp(wide_inv) - exp(-wide_inv));
     const Float wide = exp(-min(sin_part, 60.0f)) * bessel_i0(min(cos_part, 12.0f)) / (sinh * 2.0f * v);

@@ -117,6 +117,7 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.has_lobes = info.lobes > 0;
     info.least_alpha = least_alpha(surface);
     info.has_displacement = uses(g.of(Purpose::displacement), Op::displacement);
+    info.sends_rays = uses(surface, Op::ambient_occlusion) || uses(surface, Op::bevel) || uses(surface, Op::raycast);
     const Program& volume = g.of(Purpose::volume);
     info.has_volume = !volume.code.empty();
     info.constant_volume = is_constant_medium(volume);

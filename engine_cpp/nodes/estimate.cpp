@@ -52,6 +52,13 @@ void run_one(const Program& p, const Instruction& in, Workspace& w) {
         const Float3 mean = p.view.images->mean_color(static_cast<int>(in.imm & 0xffffff));
         const float values[] = {mean.x, mean.y, mean.z, 1};
         for (int k = 0; k < 4; ++k) set_rows(dst + k * k_chunk, values[k]);
+    } else if (in.op == Op::image_tiles) {
+        const float* tiles = p.view.data + in.data;
+        Float3 sum;
+        for (int k = 0; k < static_cast<int>(tiles[0]); ++k)
+            sum = sum + p.view.images->mean_color(static_cast<int>(tiles[2 + 2 * k])) * (1 / tiles[0]);
+        const float values[] = {sum.x, sum.y, sum.z, 1};
+        for (int k = 0; k < 4; ++k) set_rows(dst + k * k_chunk, values[k]);
     } else if (in.op == Op::attribute) {
         for (int k = 0; k < 3; ++k) std::copy_n(w.chunk.position[k], k_chunk, dst + k * k_chunk);
         set_rows(dst + 3 * k_chunk, 1);

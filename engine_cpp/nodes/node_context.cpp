@@ -207,20 +207,34 @@ GgxLobe NodeContext::ggx() {
     l.tangent = b.constant(Float3{0, 0, 0});
     l.alpha_x = l.alpha_y = b.constant(0);
     l.eta = b.constant(1);
+    l.film_thickness = b.constant(0);
+    l.film_ior = b.constant(1.33f);
     return l;
 }
 
 Ref NodeContext::ggx_lobe(const GgxLobe& l) {
     if (!room_for_lobe(l.weight)) return b.constant(1);
-    const std::uint32_t imm = static_cast<std::uint32_t>(l.kind) |
-                              static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
-                              (l.preserve_energy ? lobe_preserve_energy : 0u);
-    return b.emit(Op::lobe_ggx,
-                  {l.weight.x,  l.weight.y,  l.weight.z,  l.normal.x,       l.normal.y,       l.normal.z,
-                   l.tangent.x, l.tangent.y, l.tangent.z, l.alpha_x,        l.alpha_y,        l.eta,
-                   l.f0.x,      l.f0.y,      l.f0.z,      l.f90.x,          l.f90.y,          l.f90.z,
-                   l.tint.x,    l.tint.y,    l.tint.z,    l.layer_weight.x, l.layer_weight.y, l.layer_weight.z},
-                  imm);
+    const std::uint32_t imm =
+        static_cast<std::uint32_t>(l.kind) | static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
+        static_cast<std::uint32_t>(l.distribution) << lobe_distribution_shift |
+        (l.preserve_energy ? lobe_preserve_energy : 0u) | (l.separable_masking ? lobe_separable : 0u) |
+        (b.is(l.film_thickness, 0) ? 0u : lobe_thin_film);
+    return b.emit(
+        Op::lobe_ggx,
+        {l.weight.x,       l.weight.y,       l.weight.z,       l.normal.x,       l.normal.y, l.normal.z, l.tangent.x,
+         l.tangent.y,      l.tangent.z,      l.alpha_x,        l.alpha_y,        l.eta,      l.f0.x,     l.f0.y,
+         l.f0.z,           l.f90.x,          l.f90.y,          l.f90.z,          l.tint.x,   l.tint.y,   l.tint.z,
+         l.layer_weight.x, l.layer_weight.y, l.layer_weight.z, l.film_thickness, l.film_ior},
+        imm);
+}
+
+void NodeContext::hair_lobe(const HairLobe& l) {
+    if (!room_for_lobe(l.weight)) return;
+    b.emit(Op::lobe_hair,
+           {l.weight.x,  l.weight.y, l.weight.z, l.normal.x, l.normal.y, l.normal.z, l.tangent.x, l.tangent.y,
+            l.tangent.z, l.alpha_x,  l.alpha_y,  l.third,    l.eta,      l.f0.x,     l.f0.y,      l.f0.z,
+            l.f90.x,     l.f90.y,    l.f90.z,    l.tint.x,   l.tint.y,   l.tint.z},
+           static_cast<std::uint32_t>(l.kind) | lobe_keep);
 }
 
 void NodeContext::subsurface_lobe(const SubsurfaceLobe& l, const std::string& method, bool before_4) {

@@ -11,10 +11,21 @@ namespace cardioid::nodes {
 struct GgxLobe {
     bsdf::LobeKind kind = bsdf::LobeKind::ggx_reflection;
     bsdf::Fresnel fresnel = bsdf::Fresnel::none;
+    bsdf::Distribution distribution = bsdf::Distribution::ggx;
     bool preserve_energy = false;
+    bool separable_masking = false;
     Ref3 weight, normal, tangent;
     Ref alpha_x, alpha_y, eta;
     Ref3 f0, f90, tint, layer_weight;
+    Ref film_thickness, film_ior;  ///< in nm, 0: none; relative to wo's side
+};
+
+/// Operands of a hair lobe: rows as bsdf/lobe.h has them.
+struct HairLobe {
+    bsdf::LobeKind kind = bsdf::LobeKind::hair_chiang;
+    Ref3 weight, normal, tangent;
+    Ref alpha_x, alpha_y, third, eta;
+    Ref3 f0, f90, tint;
 };
 
 /// Operands of a subsurface lobe.
@@ -101,6 +112,7 @@ public:
     Ref ggx_lobe(const GgxLobe& lobe);
     Ref sheen_lobe(Ref3 weight, Ref3 normal, Ref roughness, Ref3 layer_weight);
     GgxLobe ggx();
+    void hair_lobe(const HairLobe& lobe);
     /// `method`: the node's enum. Before 4.0 its names meant other things and walks entered diffusely.
     void subsurface_lobe(const SubsurfaceLobe& lobe, const std::string& method, bool before_4);
     /// The input "Normal" (or another) of a closure: unit, bent for glossy ones.

@@ -72,6 +72,18 @@ inline void anisotropic_alpha(NodeContext& c, Ref alpha, Ref anisotropic, GgxLob
     lobe.alpha_y = c.b.multiply(alpha, aspect);
 }
 
+/// Thin Film sockets, for nodes that have them.
+inline void set_film(NodeContext& c, GgxLobe& l, bool glass = false, Ref inside = {}) {
+    l.film_thickness = c.b.maximum(c.number("Thin Film Thickness", 0), c.b.constant(0));
+    if (c.b.is(l.film_thickness, 0)) return;
+    l.film_ior = c.b.maximum(c.number("Thin Film IOR", 1.33f), c.b.constant(1e-5f));
+    if (glass) {
+        // Seen from inside, the film's index counts from the glass.
+        const Ref back = c.b.chunk(ChunkRow::backfacing);
+        l.film_ior = c.b.select_positive(back, c.b.divide(l.film_ior, inside), l.film_ior);
+    }
+}
+
 enum class TextureDefault { generated, uv, position };
 /// The "Vector" of a texture node, through its old mapping panel; unlinked: the default coordinates.
 Ref3 texture_point(NodeContext& c, TextureDefault unlinked);

@@ -52,6 +52,10 @@ std::span<const NodeType> convert_nodes();
 std::span<const NodeType> texture_nodes();
 std::span<const NodeType> image_nodes();
 std::span<const NodeType> vector_nodes();
+std::span<const NodeType> ray_nodes();
+std::span<const NodeType> special_nodes();
+std::span<const NodeType> volume_nodes();
+std::span<const NodeType> hair_nodes();
 /// Listed alone: the compiler takes them for unknown.
 std::span<const NodeType> unsupported_nodes();
 

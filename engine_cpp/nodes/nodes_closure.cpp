@@ -58,9 +58,11 @@ void subsurface(NodeContext& c, Ref weight) {
     c.subsurface_lobe(l, c.text("falloff", "RANDOM_WALK"), before_4);
 }
 
-void plain_diffuse(NodeContext& c, Ref weight) {
-    const Ref3 w = weighted(c, weight);
-    c.simple_lobe(LobeKind::diffuse, w, c.closure_normal("Normal", false), c.b.constant(0), false, w);
+void toon(NodeContext& c, Ref weight) {
+    const bool glossy = c.text("component", "DIFFUSE") == "GLOSSY";
+    const Ref smooth = c.number("Smooth", 0);
+    c.simple_lobe(glossy ? LobeKind::toon_glossy : LobeKind::toon_diffuse, weighted(c, weight),
+                  c.closure_normal("Normal", glossy), c.number("Size", 0.5f), false, c.b.broadcast(smooth));
 }
 
 void velvet(NodeContext& c, Ref weight) {
@@ -78,6 +80,14 @@ void sheen(NodeContext& c, Ref weight) {
         c.sheen_lobe(w, n, roughness, w);
 }
 
+/// Distribution, and masking as Blender before 3.5 had it.
+void set_distribution(NodeContext& c, GgxLobe& l, double first_version) {
+    const std::string name = c.text("distribution", "GGX");
+    if (name == "BECKMANN") l.distribution = bsdf::Distribution::beckmann;
+    if (name == "ASHIKHMIN_SHIRLEY") l.distribution = bsdf::Distribution::ashikhmin_shirley;
+    l.separable_masking = c.property("version", first_version) < 2 && name != "MULTI_GGX";
+}
+
 /// Blender's roughness, squared; 0 for the old "sharp" distribution.
 Ref alpha_of(NodeContext& c, float fallback) {
     if (c.text("distribution") == "SHARP") return c.b.constant(0);
@@ -90,6 +100,7 @@ void glossy(NodeContext& c, Ref weight) {
     l.weight = weighted(c, weight);
     l.normal = c.closure_normal("Normal", true);
     l.alpha_x = l.alpha_y = alpha_of(c, 0.5f);
+    set_distribution(c, l, 2);
     l.preserve_energy = c.text("distribution", "GGX") == "MULTI_GGX";
     if (l.preserve_energy) l.f0 = c.b.saturate(c.color("Color"));
     const Ref anisotropy = c.b.emit(Op::clamp, {c.number("Anisotropy", 0), c.b.constant(-0.99f), c.b.constant(0.99f)});
@@ -126,6 +137,8 @@ void glass(NodeContext& c, Ref weight) {
     l.alpha_x = l.alpha_y = alpha_of(c, 0);
     l.f0 = c.b.saturate(c.color("Color"));
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
+    set_distribution(c, l, 1);
+    set_film(c, l, true, c.b.maximum(c.number("IOR", 1.45f), c.b.constant(1e-5f)));
     const bool smooth = c.b.is_constant(l.alpha_x) && c.b.value(l.alpha_x) <= bsdf::k_delta_alpha;
     const bool multi = c.text("distribution", "GGX") == "MULTI_GGX";
     if (c.property("version", 1) < 2 && !smooth && !multi) {
@@ -143,6 +156,7 @@ void refraction(NodeContext& c, Ref weight) {
     l.normal = c.closure_normal("Normal", true);
     l.alpha_x = l.alpha_y = alpha_of(c, 0);
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
+    set_distribution(c, l, 2);
     c.ggx_lobe(l);
 }
 
@@ -152,6 +166,8 @@ void metallic(NodeContext& c, Ref weight) {
     l.weight = c.b.broadcast(weight);
     l.normal = c.closure_normal("Normal", true);
     l.preserve_energy = c.text("distribution", "MULTI_GGX") == "MULTI_GGX";
+    set_distribution(c, l, 2);
+    set_film(c, l);
     const Ref alpha = alpha_of(c, 0.5f);
     l.alpha_x = l.alpha_y = alpha;
     const Ref anisotropy = c.b.saturate(c.number("Anisotropy", 0));
@@ -171,7 +187,9 @@ void metallic(NodeContext& c, Ref weight) {
     c.ggx_lobe(l);
 }
 
-constexpr const char* k_beckmann = "Beckmann and Ashikhmin-Shirley are GGX of the same roughness";
+constexpr SupportByVersion k_multi_34 = {Support::approximated, Support::same, Support::same, Support::same};
+constexpr const char* k_multi =
+    "3.4's Multiscatter GGX is compensated by albedo as in 4.0 and later, not walked between facets";
 
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeMixShader", nullptr, mix_shader, Support::same, ""},
@@ -182,17 +200,15 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeHoldout", nullptr, holdout, Support::same, ""},
     {"ShaderNodeBsdfDiffuse", nullptr, diffuse, Support::same, ""},
     {"ShaderNodeBsdfTranslucent", nullptr, translucent, Support::same, ""},
-    {"ShaderNodeBsdfGlossy", nullptr, glossy, Support::approximated, k_beckmann},
-    {"ShaderNodeBsdfAnisotropic", nullptr, glossy, Support::approximated, k_beckmann},
-    {"ShaderNodeBsdfGlass", nullptr, glass, Support::approximated, k_beckmann},
-    {"ShaderNodeBsdfRefraction", nullptr, refraction, Support::approximated, k_beckmann},
-    {"ShaderNodeBsdfMetallic", nullptr, metallic, Support::approximated, "no thin film; Beckmann is GGX"},
-    {"ShaderNodeBsdfVelvet", nullptr, velvet, Support::same, ""},
-    {"ShaderNodeBsdfSheen", nullptr, sheen, Support::same, ""},
-    {"ShaderNodeSubsurfaceScattering", nullptr, subsurface, Support::approximated, "a diffuse surface of its colour"},
-    {"ShaderNodeBsdfToon", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
-    {"ShaderNodeBsdfHair", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
-    {"ShaderNodeBsdfHairPrincipled", nullptr, plain_diffuse, Support::approximated, "a diffuse surface of its colour"},
+    {"ShaderNodeBsdfGlossy", nullptr, glossy, k_multi_34, k_multi},
+    {"ShaderNodeBsdfAnisotropic", nullptr, glossy, k_multi_34, k_multi},
+    {"ShaderNodeBsdfGlass", nullptr, glass, k_multi_34, k_multi},
+    {"ShaderNodeBsdfRefraction", nullptr, refraction, Support::same, ""},
+    {"ShaderNodeBsdfMetallic", nullptr, metallic, since_45(Support::same), ""},
+    {"ShaderNodeBsdfVelvet", nullptr, velvet, only_34(Support::same), ""},
+    {"ShaderNodeBsdfSheen", nullptr, sheen, since_45(Support::same), ""},
+    {"ShaderNodeSubsurfaceScattering", nullptr, subsurface, Support::same, ""},
+    {"ShaderNodeBsdfToon", nullptr, toon, Support::same, ""},
 };
 
 }  // namespace

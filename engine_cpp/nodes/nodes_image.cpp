@@ -23,15 +23,32 @@ std::uint32_t extension_of(NodeContext& c) {
     return static_cast<std::uint32_t>(image::Extension::repeat);
 }
 
-/// imm of the image op, or -1 when there is no image.
+/// params["tiles"]: number and image of each tile whose image is there.
+std::vector<float> tiles_of(NodeContext& c) {
+    const std::vector<double> pairs = c.list("tiles");
+    std::vector<float> found{0};
+    for (std::size_t k = 0; k + 1 < pairs.size() && c.images() != nullptr; k += 2) {
+        if (!(pairs[k + 1] >= 0 && pairs[k + 1] < c.images()->size())) continue;
+        found.push_back(static_cast<float>(pairs[k]));
+        found.push_back(static_cast<float>(static_cast<int>(pairs[k + 1])));
+        ++found[0];
+    }
+    return found;
+}
+
+/// imm of the image ops, or -1 when there is no image.
 std::int64_t image_mode(NodeContext& c, std::uint32_t extension, image::AlphaUse alpha) {
     const auto index = static_cast<std::int64_t>(c.property("image", -1));
-    if (c.images() == nullptr || index < 0 || index >= c.images()->size()) return -1;
-    return index | static_cast<std::int64_t>(interpolation_of(c)) << 24 | static_cast<std::int64_t>(alpha) << 27 |
-           static_cast<std::int64_t>(extension) << 28;
+    const bool tiled = !c.list("tiles").empty();
+    if (c.images() == nullptr || (!tiled && (index < 0 || index >= c.images()->size()))) return -1;
+    return (tiled ? 0 : index) | static_cast<std::int64_t>(interpolation_of(c)) << 24 |
+           static_cast<std::int64_t>(alpha) << 27 | static_cast<std::int64_t>(extension) << 28;
 }
 
 Results lookup(NodeContext& c, std::int64_t mode, Ref u, Ref v) {
+    const std::vector<float> tiles = tiles_of(c);
+    if (tiles.size() > 1)
+        return c.b.emit_all(Op::image_tiles, {u, v}, static_cast<std::uint32_t>(mode), c.b.add_data(tiles));
     return c.b.emit_all(Op::image, {u, v}, static_cast<std::uint32_t>(mode));
 }
 
@@ -103,8 +120,7 @@ void environment_texture(NodeContext& c) {
 }
 
 constexpr NodeType k_nodes[] = {
-    {"ShaderNodeTexImage", image_texture, nullptr, Support::same,
-     "cubic interpolation as the image room has it; no UDIM tiles"},
+    {"ShaderNodeTexImage", image_texture, nullptr, Support::same, "cubic interpolation as the image room has it"},
     {"ShaderNodeTexEnvironment", environment_texture, nullptr, Support::same, ""},
 };
 

@@ -122,13 +122,6 @@ void layer_weight(NodeContext& c) {
     c.number_out("Facing", b.one_minus(b.is(blend, 0.5f) ? f : b.emit(Op::power, {f, exponent})));
 }
 
-void ambient_occlusion(NodeContext& c) {
-    c.color_out("Color", c.color("Color", {1, 1, 1}));
-    c.number_out("AO", c.b.constant(1));
-}
-
-void bevel(NodeContext& c) { c.vector_out("Normal", c.vector_or("Normal", c.normal())); }
-
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeRGB", rgb, nullptr, Support::same, ""},
     {"ShaderNodeValue", value, nullptr, Support::same, ""},
@@ -140,8 +133,6 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeNewGeometry", geometry, nullptr, Support::same, ""},
     {"ShaderNodeFresnel", fresnel_node, nullptr, Support::same, ""},
     {"ShaderNodeLayerWeight", layer_weight, nullptr, Support::same, ""},
-    {"ShaderNodeAmbientOcclusion", ambient_occlusion, nullptr, Support::approximated, "nothing is occluded: AO is 1"},
-    {"ShaderNodeBevel", bevel, nullptr, Support::approximated, "gives the normal without a bevel"},
 };
 
 }  // namespace

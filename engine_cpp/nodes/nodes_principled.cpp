@@ -73,6 +73,7 @@ void v1_specular(NodeContext& c, const V1& p, Ref weight) {
     const Ref glass = c.b.multiply(p.transmission, c.b.one_minus(p.metallic));
     l.weight = c.b.broadcast(c.b.multiply(weight, c.b.one_minus(glass)));
     l.normal = p.normal;
+    l.separable_masking = !p.multi_ggx;
     const Ref reflectance = c.b.multiply(specular, c.b.constant(0.08f));
     const Ref root = c.b.emit(Op::square_root, {reflectance});
     l.eta = c.b.subtract(c.b.divide(c.b.constant(2), c.b.one_minus(root)), one);
@@ -96,6 +97,7 @@ void v1_transmission(NodeContext& c, const V1& p, Ref weight) {
     const Ref3 w = c.b.broadcast(c.b.multiply(weight, glass));
     GgxLobe l = c.ggx();
     l.normal = p.normal;
+    l.separable_masking = !p.multi_ggx;
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
     l.alpha_x = l.alpha_y = c.b.multiply(p.roughness, p.roughness);
     const Ref3 front = c.b.mix(c.b.constant(Float3{1, 1, 1}), p.base, p.specular_tint);
@@ -133,6 +135,7 @@ void v1_clearcoat(NodeContext& c, Ref weight) {
     l.fresnel = Fresnel::principled_v1;
     l.weight = c.b.broadcast(c.b.multiply(weight, c.b.multiply(clearcoat, c.b.constant(0.25f))));
     l.normal = c.closure_normal("Clearcoat Normal", true);
+    l.distribution = bsdf::Distribution::gtr1;
     const Ref r = c.number("Clearcoat Roughness", 0.03f);
     l.alpha_x = l.alpha_y = c.b.multiply(r, r);
     l.eta = c.b.constant(1.5f);
@@ -178,7 +181,8 @@ void v2_sheen(NodeContext& c, V2& p, Ref coat_weight) {
     const Ref sheen = c.b.maximum(c.number("Sheen Weight", 0), c.b.constant(0));
     if (c.b.is(sheen, 0)) return;
     const Ref3 n = c.closure_normal("Normal", false);
-    const Ref3 mixed = c.b.normalize(c.b.mix(n, c.vector_or("Coat Normal", c.normal()), c.b.saturate(coat_weight)));
+    const Ref3 coat_normal = c.vector_or("Coat Normal", c.property("version", 2) >= 3 ? n : c.normal());
+    const Ref3 mixed = c.b.normalize(c.b.mix(n, coat_normal, c.b.saturate(coat_weight)));
     const Ref3 tint = c.b.maximum(c.color("Sheen Tint", {1, 1, 1}), c.b.constant(0));
     const Ref3 w = c.b.multiply(c.b.multiply(p.weight, tint), sheen);
     p.weight =
@@ -192,7 +196,9 @@ void v2_coat(NodeContext& c, V2& p, Ref coat) {
     l.fresnel = Fresnel::dielectric;
     l.weight = c.b.multiply(p.weight, coat);
     l.layer_weight = p.weight;
-    l.normal = c.closure_normal("Coat Normal", true);
+    // Since 5.0 a coat without a normal of its own follows the node's.
+    const bool follows = c.property("version", 2) >= 3 && !c.linked("Coat Normal");
+    l.normal = c.closure_normal(follows ? "Normal" : "Coat Normal", true);
     l.eta = c.b.maximum(c.number("Coat IOR", 1.5f), one);
     const Ref r = c.b.saturate(c.number("Coat Roughness", 0.03f));
     l.alpha_x = l.alpha_y = c.b.multiply(r, r);
@@ -220,6 +226,7 @@ void v2_metal(NodeContext& c, V2& p) {
     l.tangent = p.tangent;
     l.f0 = p.clamped_base;
     l.f90 = c.b.minimum(p.specular_tint, c.b.constant(1));
+    if (c.property("version", 2) >= 3) set_film(c, l);
     c.ggx_lobe(l);
     p.weight = c.b.multiply(p.weight, c.b.one_minus(metallic));
 }
@@ -244,6 +251,7 @@ void v2_glass(NodeContext& c, V2& p) {
     l.preserve_energy = p.multi_ggx && !c.b.is(p.roughness, 0);
     // A white tint makes the rescaled Schlick term the dielectric one.
     l.fresnel = c.b.is(p.specular_tint, 1) ? Fresnel::dielectric : Fresnel::schlick;
+    set_film(c, l, true, p.ior);
     l.f0 = l.fresnel == Fresnel::dielectric ? l.f0 : c.b.multiply(p.specular_tint, f0_of(c, p.ior));
     c.ggx_lobe(l);
     p.weight = c.b.multiply(p.weight, c.b.one_minus(transmission));
@@ -260,8 +268,9 @@ void v2_specular(NodeContext& c, V2& p) {
         eta = c.b.select_positive(c.b.one_minus(p.ior), c.b.divide(one, dense), dense);
     }
     p.specular_eta = eta;
-    if (c.b.is(eta, 1)) return;
     GgxLobe l = c.ggx();
+    set_film(c, l);
+    if (c.b.is(eta, 1) && c.b.is(l.film_thickness, 0)) return;
     l.fresnel = Fresnel::schlick;
     l.preserve_energy = p.multi_ggx;
     l.weight = l.layer_weight = p.weight;
@@ -340,9 +349,12 @@ void principled(NodeContext& c, Ref weight) {
 }
 
 constexpr NodeType k_nodes[] = {
-    {"ShaderNodeBsdfPrincipled", nullptr, principled, Support::approximated,
-     "both versions; subsurface is a diffuse lobe of the subsurface colour, version 1's clearcoat is GGX (Cycles: "
-     "GTR1), no thin film"},
+    {"ShaderNodeBsdfPrincipled",
+     nullptr,
+     principled,
+     {Support::approximated, Support::same, Support::same, Support::same},
+     "3.4's Multiscatter GGX is compensated by albedo as in 4.0 and later; its Clearcoat is sampled by its own "
+     "density"},
 };
 
 }  // namespace

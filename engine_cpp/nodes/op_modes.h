@@ -44,6 +44,13 @@ enum AttributeMissing : std::uint32_t {
     attribute_missing_clear,   ///< alpha is 0 there
 };
 
+/// imm of the ops that send rays: number of samples, and flags.
+enum RayNodeMode : std::uint32_t {
+    ray_samples_mask = 0xff,
+    rays_inside = 1u << 8,
+    rays_local = 1u << 9,  ///< only the object itself is hit
+};
+
 /// Entries of ramp and curve tables.
 inline constexpr int k_table_size = 256;
 

@@ -17,6 +17,10 @@ namespace {
 void copy_row(const Source& s, float* row, int end) {
     for (int i = 0; i < end; i += W) store(row + i, s.at(i));
 }
+/// Anisotropy may have stretched it over 1.
+void copy_alpha(const Source& s, float* row, int end) {
+    for (int i = 0; i < end; i += W) store(row + i, min(s.at(i), 1.0f));
+}
 void copy_rows(const Machine& m, const Instruction& in, int k, Row* rows) {
     for (int c = 0; c < 3; ++c) copy_row(m.arg(in, k + c), rows[c], m.end);
 }
@@ -80,8 +84,12 @@ void op_lobe_ggx(const Machine& m, const Instruction& in) {
     Lobe spare;
     Lobe& lobe = begin_lobe(m, in, spare);
     copy_rows(m, in, 6, lobe.tangent);
-    copy_row(m.arg(in, 9), lobe.alpha_x, m.end);
-    copy_row(m.arg(in, 10), lobe.alpha_y, m.end);
+    copy_alpha(m.arg(in, 9), lobe.alpha_x, m.end);
+    copy_alpha(m.arg(in, 10), lobe.alpha_y, m.end);
+    if (lobe.thin_film) {
+        copy_row(m.arg(in, 24), lobe.roughness, m.end);
+        copy_row(m.arg(in, 25), lobe.film_ior, m.end);
+    }
     if (lobe.kind != LobeKind::ggx_reflection || lobe.fresnel != Fresnel::none || lobe.preserve_energy) {
         copy_row(m.arg(in, 11), lobe.eta, m.end);
         copy_rows(m, in, 12, lobe.f0);

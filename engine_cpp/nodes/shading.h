@@ -73,7 +73,7 @@ struct GeometryTables {
 /// Rays that nodes send (Bevel, Ambient Occlusion, Raycast), for the lanes of a chunk.
 struct alignas(64) NodeRays {
     Row origin[3], direction[3], t_min, t_max;  ///< t_max < t_min: no ray in this lane
-    std::int32_t only[k_chunk];                 ///< instance that alone can be hit; -1: all
+    std::int32_t only[k_chunk];                 ///< instance that alone can be hit; -1: all; -2: what is opaque to shadow rays
 };
 struct alignas(64) NodeHits {
     Row t;                           ///< 1e30: nothing
@@ -106,7 +106,7 @@ struct alignas(64) ShadingChunk {
     std::int32_t instance[k_chunk];  ///< -1 for lamps and the world
     std::int32_t material_pass_index = 0;
     std::uint32_t ray_flags[k_chunk];
-    std::int32_t random_seed[k_chunk];  ///< set for programs that send rays: another one for each vertex of each path
+    std::int32_t random_seed[k_chunk];  ///< for nodes that send rays, by vertex and path; < 0: too blurred for bevels
     Row ray_depth, diffuse_depth, glossy_depth, transmission_depth, transparent_depth;
 };
 

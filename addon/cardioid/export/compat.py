@@ -15,6 +15,8 @@ SINCE: dict[str, tuple[int, int]] = {
     "corner_normals": (4, 1),        # mesh.corner_normals; before: calc_normals_split and auto smooth
     "array_attributes": (4, 1),      # 'position' and '.corner_vert' are attributes, uv_layer.uv exists
     "principled_2": (4, 0),          # Principled BSDF with Coat, Sheen Weight, …
+    "principled_3": (5, 0),          # films on metal; the coat follows the bumped normal
+    "microfacet_2": (3, 5),          # facets mask and shadow each other together
     "diffuse_2": (4, 3),             # rough diffuse keeps its energy
     "bump_2": (3, 6),                # Bump's own normal may point below the surface
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
@@ -29,7 +31,10 @@ SINCE: dict[str, tuple[int, int]] = {
 
 # Nodes that mean something else since then: docs/nodes.md tells what.
 NODE_SINCE = {
-    "ShaderNodeBsdfPrincipled": "principled_2",
+    "ShaderNodeBsdfPrincipled": ("principled_2", "principled_3"),
+    "ShaderNodeBsdfGlossy": "microfacet_2",
+    "ShaderNodeBsdfAnisotropic": "microfacet_2",
+    "ShaderNodeBsdfRefraction": "microfacet_2",
     "ShaderNodeBsdfGlass": "principled_2",
     "ShaderNodeBsdfDiffuse": "diffuse_2",
     "ShaderNodeBump": "bump_2",
@@ -94,5 +99,7 @@ def has_light_linking(obj: Any) -> bool:
 
 def node_versions(node_type: str) -> dict[str, Any]:
     """Parameters that tell apart nodes which share a type but not a meaning."""
-    key = NODE_SINCE.get(node_type)
-    return {} if key is None else {"version": 2 if has(key) else 1}
+    keys = NODE_SINCE.get(node_type)
+    if keys is None:
+        return {}
+    return {"version": 1 + sum(has(key) for key in ((keys,) if isinstance(keys, str) else keys))}

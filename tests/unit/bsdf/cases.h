@@ -14,6 +14,73 @@ struct Case {
     std::string name;
 };
 
+/// Other distributions than GGX, masking by independent factors, and films.
+inline void add_facets(std::vector<Model>& out) {
+    using bsdf::Distribution;
+    using bsdf::Fresnel;
+    using bsdf::LobeKind;
+    for (const float r : {0.15f, 0.5f, 1.0f}) {
+        const std::string name = std::to_string(r);
+        bsdf::Lobe l = lobe_of(LobeKind::ggx_reflection, r);
+        l.distribution = Distribution::beckmann;
+        out.push_back(model_of("beckmann " + name, l));
+        l.separable_masking = true;
+        out.push_back(model_of("beckmann separable " + name, l));
+        l.distribution = Distribution::ggx;
+        out.push_back(model_of("ggx separable " + name, l));
+        l.distribution = Distribution::ashikhmin_shirley;
+        out.push_back(model_of("ashikhmin-shirley " + name, l));
+        l.distribution = Distribution::gtr1;
+        out.push_back(model_of("gtr1 " + name, l));
+        bsdf::Lobe glass = lobe_of(LobeKind::ggx_glass, r, Fresnel::dielectric, 1.5f);
+        glass.distribution = Distribution::beckmann;
+        out.push_back(model_of("beckmann glass " + name, glass));
+        glass = lobe_of(LobeKind::ggx_refraction, r, Fresnel::none, 1.5f);
+        glass.distribution = Distribution::beckmann;
+        glass.separable_masking = true;
+        out.push_back(model_of("beckmann refraction separable " + name, glass));
+    }
+    for (const auto d : {Distribution::beckmann, Distribution::ashikhmin_shirley}) {
+        bsdf::Lobe l = lobe_of(LobeKind::ggx_reflection, 0.5f);
+        l.distribution = d;
+        fill(l.alpha_x, 0.6f);
+        fill(l.alpha_y, 0.15f);
+        fill3(l.tangent, 0.6f, 0.8f, 0.3f);
+        out.push_back(model_of("anisotropic " + std::to_string(static_cast<int>(d)), l));
+    }
+}
+
+inline bsdf::Lobe chiang_lobe(float rough, float across, float h) {
+    bsdf::Lobe l = lobe_of(bsdf::LobeKind::hair_chiang, 1.0f);
+    fill(l.alpha_x, rough);
+    fill(l.alpha_y, across);
+    fill3(l.f0, 0.2f, 0.4f, 0.8f);
+    fill3(l.f90, h, 0.035f, 0.0f);
+    fill(l.eta, 1.55f);
+    return l;
+}
+
+inline void add_toon_and_hair(std::vector<Model>& out) {
+    using bsdf::LobeKind;
+    for (const float smooth : {0.0f, 0.3f})
+        for (const auto kind : {LobeKind::toon_diffuse, LobeKind::toon_glossy}) {
+            bsdf::Lobe l = lobe_of(kind, 0.4f);
+            fill(l.alpha_x, smooth);
+            out.push_back(model_of("toon " + std::to_string(static_cast<int>(kind)) + " " + std::to_string(smooth), l));
+        }
+    for (const auto kind : {LobeKind::hair_reflection, LobeKind::hair_transmission}) {
+        bsdf::Lobe l = lobe_of(kind, 0.1f);
+        fill(l.alpha_x, 0.25f);
+        fill(l.alpha_y, 0.7f);
+        out.push_back(model_of("hair " + std::to_string(static_cast<int>(kind)), l));
+    }
+    for (const float h : {-0.7f, 0.1f}) out.push_back(model_of("chiang 0.3", chiang_lobe(0.3f, 0.3f, h)));
+    out.push_back(model_of("chiang 0.8", chiang_lobe(0.8f, 0.6f, 0.5f)));
+    bsdf::Lobe retro = lobe_of(LobeKind::burley, 0.7f);
+    retro.preserve_energy = true;
+    out.push_back(model_of("burley retro", retro));
+}
+
 inline std::vector<Model> all_models() {
     using bsdf::Fresnel;
     using bsdf::LobeKind;
@@ -34,6 +101,8 @@ inline std::vector<Model> all_models() {
             add("glass " + side, lobe_of(LobeKind::ggx_glass, r, Fresnel::dielectric, eta));
         }
     }
+    add_facets(out);
+    add_toon_and_hair(out);
     bsdf::Lobe anisotropic = lobe_of(LobeKind::ggx_reflection, 0.5f);
     fill(anisotropic.alpha_x, 0.5f);
     fill(anisotropic.alpha_y, 0.1f);

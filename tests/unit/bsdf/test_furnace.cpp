@@ -17,9 +17,10 @@ constexpr int k_draws = 16384;
 TEST(Furnace, NoLobeGainsEnergy) {
     for (const Model& m : all_models())
         for (const float c : {0.98f, 0.8f, 0.5f, 0.25f, 0.1f}) {
-            // Burley's diffuse gains up to some per cent by its definition, velvet and 3.4's sheen are not bounded at
-            // all.
-            if (m.name.starts_with("burley") || m.name.starts_with("velvet") || m.name.starts_with("sheen_v1"))
+            // Burley's diffuse gains up to some per cent by its definition; velvet, 3.4's sheen and its clearcoat
+            // (GTR1 with the masking of another width) are not bounded at all.
+            if (m.name.starts_with("burley") || m.name.starts_with("velvet") || m.name.starts_with("sheen_v1") ||
+                m.name.starts_with("gtr1"))
                 continue;
             const statistics::Moments a = furnace(m, direction(c, 0.5f), k_draws, 1);
             EXPECT_LE(a.mean - 3 * std::sqrt(a.variance_of_mean()), 1.01) << m.name << " at " << c;

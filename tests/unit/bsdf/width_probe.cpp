@@ -34,9 +34,11 @@ struct Inputs {
 
 void fill(Inputs& in, int k) {
     bsdf::Lobe& l = in.lobe;
-    l.kind = static_cast<bsdf::LobeKind>(k % 9);
-    l.fresnel = static_cast<bsdf::Fresnel>(k % 6);
+    l.kind = static_cast<bsdf::LobeKind>(k % 15);
+    l.fresnel = static_cast<bsdf::Fresnel>(k / 15 % 6);
     l.preserve_energy = k % 2 == 1;
+    l.distribution = static_cast<bsdf::Distribution>(bsdf::refracts(l.kind) ? k / 15 % 2 : k / 15 % 4);
+    l.separable_masking = k / 15 % 2 == 1;
     for (int n = 0; n < k_chunk; ++n) {
         const auto r = [&](int use) { return number(k, n, use); };
         for (int c = 0; c < 3; ++c) {
@@ -51,6 +53,11 @@ void fill(Inputs& in, int k) {
         l.roughness[n] = 0.1f + 0.9f * r(15);
         l.alpha_x[n] = 0.05f + 0.95f * r(16);
         l.alpha_y[n] = n % 2 == 0 ? l.alpha_x[n] : 0.05f + 0.95f * r(17);
+        if (bsdf::is_hair(l.kind)) {
+            // Narrow strands are steeper than rounding allows to compare.
+            l.alpha_x[n] = 0.4f + 0.6f * r(16);
+            l.alpha_y[n] = 0.4f + 0.6f * r(17);
+        }
         l.eta[n] = n % 4 < 2 ? 1.1f + r(18) : 1 / (1.1f + r(18));
         unit(&l.tangent[0][n], &l.tangent[1][n], &l.tangent[2][n], r(19), r(20));
         unit(&in.wo[0][n], &in.wo[1][n], &in.wo[2][n], 0.51f + 0.49f * r(21), r(22));

@@ -4,7 +4,7 @@
 
 namespace cardioid::test {
 
-constexpr int k_probe_lobes = 16;
+constexpr int k_probe_lobes = 90;  ///< each kind with each Fresnel term
 constexpr int k_probe_values = 12;
 
 /// 64 points for each lobe: out[(lobe·64 + lane)·k_probe_values + …] = eval f rgb, pdf; sampled wi, f rgb, pdf, valid.
