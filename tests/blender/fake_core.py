@@ -144,7 +144,7 @@ class Scene:
         return self._append(self.materials, desc)
 
     def add_mesh(self, name, positions, triangles, slots=None, corner_normals=None, attributes=(), active_uv="",
-                 active_color="", generated_min=None, generated_size=None):
+                 active_color="", generated_min=None, generated_size=None, edges=None):
         count = len(triangles)
         _array(name, "positions", positions, (None, 3), (np.float32,))
         _array(name, "triangles", triangles, (None, 3), (np.uint32, np.int32))
@@ -154,6 +154,8 @@ class Scene:
             _array(name, "slots", slots, (count,), (np.int32,))
         if corner_normals is not None:
             _array(name, "corner_normals", corner_normals, (count, 3, 3), (np.float32,))
+        if edges is not None:
+            _array(name, "edges", edges, (None, 2), (np.uint32, np.int32))
         for layer, domain, data in attributes:
             self._attribute(name, layer, domain, data, len(positions), count)
         for what, value in (("generated_min", generated_min), ("generated_size", generated_size)):
@@ -170,7 +172,7 @@ class Scene:
             "slots": None if slots is None else np.array(slots),
             "corner_normals": None if corner_normals is None else np.array(corner_normals), "attributes": layers,
             "active_uv": active_uv, "active_color": active_color, "generated_min": generated_min,
-            "generated_size": generated_size})
+            "generated_size": generated_size, "edges": edges})
 
     @staticmethod
     def _attribute(mesh, layer, domain, data, points, count):

@@ -13,6 +13,7 @@ import numpy as np
 from . import compat
 from .arrays import foreach, memory
 from .attributes import Layer, layers
+from .needs import NOTHING, Needs
 from .normals import corner_normals, triangle_normals
 from .tangents import corner_tangents
 
@@ -43,9 +44,9 @@ def arrays_of(source: Any, data: Any) -> Iterator[Any]:
 
 
 def add(scene: Any, name: str, mesh: Any, wanted: Set[str], warnings: list[str],
-        tangents: Set[str] = frozenset()) -> int:
-    """Adds an evaluated mesh to `scene`; -1 when it has no triangles. `wanted`: attributes that materials name;
-    `tangents`: UV maps (empty: the render-active one) whose tangents they need."""
+        read: Needs = NOTHING) -> int:
+    """Adds an evaluated mesh to `scene`; -1 when it has no triangles. `wanted`: attributes that some material of the
+    file names; `read`: what its own materials need besides."""
     mesh.calc_loop_triangles()
     if len(mesh.loop_triangles) == 0:
         return -1
@@ -53,9 +54,9 @@ def add(scene: Any, name: str, mesh: Any, wanted: Set[str], warnings: list[str],
     tris = triangles(mesh)
     normals = corner_normals(mesh, positions, tris)
     active_uv = next((layer.name for layer in mesh.uv_layers if layer.active_render), "")
-    generated_min, generated_size = _texture_space(mesh)
+    generated_min, generated_size = texture_space(mesh)
     attributes = layers(mesh, tris, wanted, name, warnings)
-    attributes += _tangents(attributes, {uv or active_uv for uv in tangents}, positions, tris, normals)
+    attributes += _tangents(attributes, {uv or active_uv for uv in read.tangents}, positions, tris, normals)
     attributes += _undeformed(mesh, positions, generated_min, generated_size)
     return scene.add_mesh(
         name, positions, tris.vertices,
@@ -64,7 +65,8 @@ def add(scene: Any, name: str, mesh: Any, wanted: Set[str], warnings: list[str],
         attributes=attributes,
         active_uv=active_uv,
         active_color=_active_color(mesh),
-        generated_min=generated_min, generated_size=generated_size)
+        generated_min=generated_min, generated_size=generated_size,
+        **({"edges": foreach(mesh.edges, "vertices", np.int32, 2)} if read.edges else {}))
 
 
 def triangles(mesh: Any) -> Triangles:
@@ -98,7 +100,7 @@ def _slots(mesh: Any, tris: Triangles) -> np.ndarray | None:
     return indices[tris.polygon] if indices.any() else None
 
 
-def _texture_space(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
+def texture_space(mesh: Any) -> tuple[np.ndarray, np.ndarray]:
     """The box whose corners have Generated coordinates 0 and 1. An extent of 0 counts as 2, as in Blender."""
     location = np.array(mesh.texspace_location, np.float32)
     half = np.array(mesh.texspace_size, np.float32)

@@ -10,22 +10,28 @@ from typing import Any
 import bpy
 
 _NAMED_LAYERS = ("attribute_name", "layer_name", "uv_map")
+_OF_EDGES = ("Pointiness", "Random Per Island")
 _INSTANCE_SOURCES = {"OBJECT": "object", "INSTANCER": "instancer"}
 
 
 @dataclass(frozen=True)
 class Needs:
     """attributes: of the mesh. values: (source, name) of the instance, source "object" or "instancer". tangents: of
-    these UV maps, "" is the render-active one. particles: Particle Info is used."""
+    these UV maps, "" is the render-active one. particles: Particle Info is used. edges: Pointiness or Random Per
+    Island is."""
 
     attributes: frozenset[str] = frozenset()
     values: frozenset[tuple[str, str]] = frozenset()
     tangents: frozenset[str] = frozenset()
     particles: bool = False
+    edges: bool = False
 
     def __or__(self, other: Needs) -> Needs:
         return Needs(self.attributes | other.attributes, self.values | other.values, self.tangents | other.tangents,
-                     self.particles or other.particles)
+                     self.particles or other.particles, self.edges or other.edges)
+
+
+NOTHING = Needs()
 
 
 def of_file() -> Needs:
@@ -57,6 +63,8 @@ def _of_node(node: Any) -> Needs:
         return Needs(values=frozenset({(_INSTANCE_SOURCES[node.attribute_type], node.attribute_name)}))
     if kind == "ShaderNodeParticleInfo":
         return Needs(particles=True)
+    if kind == "ShaderNodeNewGeometry":
+        return Needs(edges=any(node.outputs[name].is_linked for name in _OF_EDGES))
     names = frozenset(name for key in _NAMED_LAYERS if (name := getattr(node, key, "")))
     uses_tangents = ((kind == "ShaderNodeNormalMap" and node.space == "TANGENT")
                      or (kind == "ShaderNodeTangent" and node.direction_type == "UV_MAP"))

@@ -6,12 +6,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from . import compat, light, mesh, names, needs, values
+from . import compat, hair, light, mesh, names, needs, pointcloud, strands, values
 from .material import Materials
 from .options import ExportCancelled, ExportOptions
 
-_UNSUPPORTED = {"CURVES": "hair curves are", "POINTCLOUD": "point clouds are", "VOLUME": "volumes are",
-                "GPENCIL": "grease pencil is", "GREASEPENCIL": "grease pencil is"}
+_UNSUPPORTED = {"VOLUME": "volume grids are", "GPENCIL": "grease pencil is", "GREASEPENCIL": "grease pencil is"}
+# What is rendered, and the view layer's filter for it.
+_GEOMETRY = {"MESH": "use_solid", "CURVES": "use_strand", "POINTCLOUD": "use_solid"}
 _CHECK_EVERY = 256  # instances between questions to should_stop
 
 
@@ -28,13 +29,16 @@ class Objects:
     """One use: `Objects(…).export()`."""
 
     def __init__(self, scene: Any, depsgraph: Any, view_layer: Any, materials: Materials, options: ExportOptions,
-                 warnings: list[str]) -> None:
+                 eye: Any, warnings: list[str]) -> None:
+        """eye: where the camera is."""
         self._scene, self._depsgraph, self._view_layer = scene, depsgraph, view_layer
         self._materials, self._options, self._warnings = materials, options, warnings
         self._wanted = needs.of_file().attributes
         self._frame = depsgraph.scene_eval.frame_current_final
-        self._meshes: dict[tuple[int, frozenset[str]], int] = {}
-        self._kinds: dict[tuple[int, int, int], _Kind | None] = {}
+        self._render = depsgraph.mode == "RENDER"
+        self._eye = eye
+        self._meshes: dict[tuple[Any, ...], int] = {}
+        self._kinds: dict[tuple[int, int, int, str], _Kind | None] = {}
         self._told: set[str] = set()
 
     def export(self) -> None:
@@ -46,14 +50,14 @@ class Objects:
 
     def _one(self, instance: Any) -> None:
         obj = instance.object
-        if instance.show_particles:
-            self._hair(obj)
-        if not instance.show_self:
-            return
         try:
-            if obj.type == "MESH":
-                if self._view_layer.use_solid:
-                    self._place(instance, obj)
+            if instance.show_particles and self._view_layer.use_strand and self._has_hair(instance):
+                self._place(instance, obj, "particles")
+            if not instance.show_self:
+                return
+            if obj.type in _GEOMETRY:
+                if getattr(self._view_layer, _GEOMETRY[obj.type]):
+                    self._place(instance, obj, obj.type)
             elif obj.type == "LIGHT":
                 self._lamp(instance, obj)
             elif obj.type in _UNSUPPORTED:
@@ -61,15 +65,15 @@ class Objects:
         except Exception as error:
             self._tell(f"Object “{obj.name}” is left out: {error}")
 
-    def _place(self, instance: Any, obj: Any) -> None:
+    def _place(self, instance: Any, obj: Any, geometry: str) -> None:
         # An instance's object is one temporary that is refilled for each step: only its source has an identity.
         dupli = instance.is_instance
         source = instance.instance_object if dupli else obj
         parent = instance.parent if dupli else None
-        key = (source.as_pointer(), obj.data.as_pointer(), parent.as_pointer() if dupli else 0)
+        key = (source.as_pointer(), obj.data.as_pointer(), parent.as_pointer() if dupli else 0, geometry)
         if key not in self._kinds:
             self._kinds[key] = None  # stays so when this fails: told once, not for each instance
-            self._kinds[key] = self._kind(obj, source, parent)
+            self._kinds[key] = self._kind(obj, source, parent, geometry)
         kind = self._kinds[key]
         if kind is None or kind.mesh < 0:
             return
@@ -83,7 +87,7 @@ class Objects:
             desc["values"] = found
         self._scene.add_instance(desc)
 
-    def _kind(self, obj: Any, source: Any, parent: Any) -> _Kind:
+    def _kind(self, obj: Any, source: Any, parent: Any, geometry: str) -> _Kind:
         owner = parent or obj
         holdout = owner.is_holdout or owner.holdout_get(view_layer=self._view_layer)
         visibility = names.object_visibility(obj) & names.object_visibility(owner)
@@ -93,20 +97,33 @@ class Objects:
             return _Kind(-1, {})
         self._tell_unsupported(obj, owner)
         read = self._materials.needs(obj)
-        index = self._mesh(obj, source, read.tangents)
+        index = self._geometry(obj, source, read, geometry)
         return _Kind(index, {} if index < 0 else {
             "name": obj.name, "mesh": index, "materials": self._materials.indices(obj), "visibility": visibility,
             "holdout": bool(holdout), "pass_index": obj.pass_index, "color": list(obj.color),
             "random": names.unit_random(names.hash_name(obj.name))}, read)
 
-    def _mesh(self, obj: Any, source: Any, tangents: frozenset[str]) -> int:
-        data = obj.data
-        key = data.as_pointer(), tangents
+    def _geometry(self, obj: Any, source: Any, read: needs.Needs, geometry: str) -> int:
+        owner = source if geometry == "particles" else obj.data
+        key = (owner.as_pointer(), geometry, read.tangents, read.edges)
         if key not in self._meshes:
             self._meshes[key] = -1
-            with mesh.arrays_of(source, data) as filled:
-                self._meshes[key] = mesh.add(self._scene, data.name, filled, self._wanted, self._warnings, tangents)
+            self._meshes[key] = self._add(obj, source, read, geometry)
         return self._meshes[key]
+
+    def _add(self, obj: Any, source: Any, read: needs.Needs, geometry: str) -> int:
+        if geometry == "particles":
+            return hair.of_particles(self._scene, source, self._render, self._eye, self._tell)
+        if geometry == "CURVES":
+            return hair.of_curves(self._scene, obj, self._wanted, self._eye, self._tell)
+        if geometry == "POINTCLOUD":
+            return pointcloud.add(self._scene, obj.data, self._wanted)
+        with mesh.arrays_of(source, obj.data) as filled:
+            return mesh.add(self._scene, obj.data.name, filled, self._wanted, self._warnings, read)
+
+    def _has_hair(self, instance: Any) -> bool:
+        source = instance.instance_object if instance.is_instance else instance.object
+        return any(strands.particle_systems(source, "show_render" if self._render else "show_viewport"))
 
     def _lamp(self, instance: Any, obj: Any) -> None:
         if compat.has_light_linking(obj):
@@ -119,10 +136,6 @@ class Objects:
             self._tell(f"Object “{obj.name}”: shadow catchers are not supported, rendered as it is")
         if compat.has_light_linking(obj) or compat.has_light_linking(owner):
             self._tell(f"Object “{obj.name}”: light linking is not supported, all lights reach it")
-
-    def _hair(self, obj: Any) -> None:
-        if any(p.settings.type == "HAIR" and p.settings.render_type == "PATH" for p in obj.particle_systems):
-            self._tell(f"Object “{obj.name}”: hair is not supported, left out")
 
     def _tell(self, message: str) -> None:
         if message not in self._told:

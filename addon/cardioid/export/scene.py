@@ -35,7 +35,7 @@ def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptio
         with _timed(timings, "world"):
             _world(target, world.current(source, layer) if layer.use_sky else None, materials)
         with _timed(timings, "objects"):
-            Objects(target, depsgraph, layer, materials, options, warnings).export()
+            Objects(target, depsgraph, layer, materials, options, viewer.matrix_world.translation, warnings).export()
         target.set_settings(_settings(options, images))
     exported.warnings[:] = dict.fromkeys(warnings)
     return exported

@@ -154,15 +154,7 @@ def test_particles_as_objects():
     assert len(found.meshes) == 2 and len([i for i in found.instances if i["name"] == "Emitter"]) == 1
 
 
-def test_hair_is_named():
-    emitter = add(quad(), "Head")
-    emitter.modifiers.new("Hair", "PARTICLE_SYSTEM").particle_system.settings.type = "HAIR"
-    exported = export()
-    assert any("Head" in w and "hair" in w for w in exported.warnings)
-    assert len(exported.scene.instances) == 1
-
-
-@pytest.mark.parametrize(("kind", "collection"), [("VOLUME", "volumes"), ("CURVES", "hair_curves")])
+@pytest.mark.parametrize(("kind", "collection"), [("VOLUME", "volumes")])
 def test_unsupported_objects_are_named(kind, collection):
     add(getattr(bpy.data, collection).new("Odd"), "Strange")
     exported = export()
