@@ -27,7 +27,7 @@ Box scene_bounds(const GeometryPool& pool, const std::function<bool(int)>& wante
     std::vector<Box> meshes(pool.meshes().size());
     for (std::size_t i = 0; i < placed.size(); ++i) {
         if (!wanted(static_cast<int>(i))) continue;
-        const int mesh = placed[i].desc->mesh;
+        const int mesh = placed[i].mesh;
         Box& own = meshes[mesh];
         if (own.empty()) own = mesh_bounds(pool, mesh);
         if (own.empty()) continue;

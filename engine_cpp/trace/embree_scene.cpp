@@ -27,7 +27,7 @@ EmbreeScene::EmbreeScene(const GeometryPool& pool, bool robust, const std::funct
     meshes_.assign(pool.meshes().size(), nullptr);
     const auto& placed = pool.placed();
     for (std::size_t i = 0; i < placed.size() && !cancelled_; ++i) {
-        const int mesh = placed[i].desc->mesh;
+        const int mesh = placed[i].mesh;
         std::uint32_t mask = placed[i].visibility & ~static_cast<std::uint32_t>(scene::visible_shadow);
         if (placed[i].visibility & scene::visible_shadow) {
             mask |= has_transparency(static_cast<int>(i)) ? mask_shadow_transparent : mask_shadow_opaque;

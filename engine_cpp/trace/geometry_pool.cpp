@@ -13,9 +13,6 @@
 namespace cardioid::trace {
 
 namespace {
-/// Groups may nest; validation refuses loops, this bound only keeps a bug from hanging.
-constexpr int k_max_group_depth = 64;
-
 const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const std::string& name) {
     const std::string* wanted = &name;
     if (name == nodes::k_active_uv) wanted = &mesh.active_uv;
@@ -27,45 +24,33 @@ const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const st
 }
 }  // namespace
 
-GeometryPool::GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material) {
-    flatten(desc);
-    copy_meshes(desc);
-    copy_attributes(desc, names.attributes);
-    make_instances(desc, default_material);
+GeometryPool::GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material,
+                           const MeshVariants& variants)
+    : list_(desc) {
+    Sources sources;
+    for (const auto& mesh : desc.meshes) sources.push_back(&mesh);
+    for (const auto& mesh : variants.meshes) sources.push_back(&mesh);
+    for (std::size_t i = 0; i < variants.of.size(); ++i) {
+        if (variants.of[i] >= 0) list_.meshes[i].mesh = static_cast<std::int32_t>(desc.meshes.size()) + variants.of[i];
+    }
+    copy_meshes(sources);
+    copy_attributes(sources, names.attributes);
+    make_instances(sources, default_material);
     collect_values(names.instance_values);
 }
 
-void GeometryPool::flatten(const scene::SceneDesc& desc) {
-    placed_.reserve(desc.instances.size());
-    for (const auto& i : desc.instances) place(desc, i, PlacedMesh{}, 0);
-}
-
-void GeometryPool::place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const PlacedMesh& parent,
-                         int depth) {
-    PlacedMesh here{&instance, depth == 0 ? instance.transform : parent.transform * instance.transform,
-                    static_cast<std::uint8_t>(parent.visibility & instance.visibility), parent.group};
-    if (instance.mesh >= 0) {
-        if (!desc.meshes[instance.mesh].triangles.empty()) placed_.push_back(here);
-        return;
+void GeometryPool::copy_meshes(const Sources& sources) {
+    std::vector<const PlacedMesh*> only_user(sources.size(), nullptr);
+    std::vector<int> users(sources.size(), 0);
+    for (const auto& p : list_.meshes) {
+        ++users[p.mesh];
+        only_user[p.mesh] = &p;
     }
-    if (instance.group < 0 || depth >= k_max_group_depth) return;
-    groups_.push_back({&instance, parent.group});
-    here.group = static_cast<std::int32_t>(groups_.size()) - 1;
-    for (const auto& child : desc.groups[instance.group].instances) place(desc, child, here, depth + 1);
-}
-
-void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
-    std::vector<const PlacedMesh*> only_user(desc.meshes.size(), nullptr);
-    std::vector<int> users(desc.meshes.size(), 0);
-    for (const auto& p : placed_) {
-        ++users[p.desc->mesh];
-        only_user[p.desc->mesh] = &p;
-    }
-    ranges_.resize(desc.meshes.size());
+    ranges_.resize(sources.size());
     std::size_t vertices = 0, triangles = 0;
-    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+    for (std::size_t m = 0; m < sources.size(); ++m) {
         MeshRange& r = ranges_[m];
-        const auto& mesh = desc.meshes[m];
+        const scene::MeshDesc& mesh = *sources[m];
         r.used = users[m] > 0;
         if (!r.used) continue;
         r.baked = users[m] == 1;
@@ -87,10 +72,10 @@ void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
     const bool any_slots =
         std::any_of(ranges_.begin(), ranges_.end(), [](const MeshRange& r) { return r.used && r.multi_material; });
     slots_.assign(any_slots ? triangles + 1 : 1, 0);
-    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+    for (std::size_t m = 0; m < sources.size(); ++m) {
         const MeshRange& r = ranges_[m];
         if (!r.used) continue;
-        const auto& mesh = desc.meshes[m];
+        const scene::MeshDesc& mesh = *sources[m];
         std::memcpy(triangles_.data() + 3 * std::size_t{r.first_triangle}, mesh.triangles.data(),
                     mesh.triangles.size() * sizeof(std::uint32_t));
         float* out = positions_.data() + 3 * std::size_t{r.first_vertex};
@@ -118,19 +103,19 @@ void GeometryPool::copy_meshes(const scene::SceneDesc& desc) {
     }
 }
 
-void GeometryPool::copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names) {
+void GeometryPool::copy_attributes(const Sources& sources, const std::vector<std::string>& names) {
     attribute_names_ = static_cast<int>(names.size());
-    attributes_.assign(std::max<std::size_t>(1, desc.meshes.size() * names.size()), {});
+    attributes_.assign(std::max<std::size_t>(1, sources.size() * names.size()), {});
     floats_.assign(4, 0.0f);
-    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
+    for (std::size_t m = 0; m < sources.size(); ++m) {
         if (!ranges_[m].used) continue;
         for (std::size_t a = 0; a < names.size(); ++a)
-            add_attribute(desc.meshes[m], names[a], attributes_[m * names.size() + a]);
+            add_attribute(*sources[m], names[a], attributes_[m * names.size() + a]);
     }
-    mesh_infos_.resize(std::max<std::size_t>(1, desc.meshes.size()));
-    for (std::size_t m = 0; m < desc.meshes.size(); ++m) {
-        mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, desc.meshes[m].generated_min,
-                          desc.meshes[m].generated_size};
+    mesh_infos_.resize(std::max<std::size_t>(1, sources.size()));
+    for (std::size_t m = 0; m < sources.size(); ++m) {
+        mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, sources[m]->generated_min,
+                          sources[m]->generated_size};
     }
 }
 
@@ -150,30 +135,24 @@ void GeometryPool::add_attribute(const scene::MeshDesc& mesh, const std::string&
     }
 }
 
-/// Groups first, from the outermost in, so that the inner instance's own values stay.
 void GeometryPool::collect_values(const std::vector<std::string>& names) {
     instance_value_names_ = static_cast<int>(names.size());
     instance_values_.assign(std::max<std::size_t>(1, infos_.size() * names.size()) * 4, 0.0f);
     if (names.empty()) return;
     std::unordered_map<std::string_view, std::size_t> ids;
     for (std::size_t k = 0; k < names.size(); ++k) ids.emplace(names[k], k);
-    std::vector<const scene::InstanceDesc*> chain;
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-        chain.assign(1, placed_[i].desc);
-        for (std::int32_t g = placed_[i].group; g >= 0; g = groups_[g].outer) chain.push_back(groups_[g].desc);
-        for (auto desc = chain.rbegin(); desc != chain.rend(); ++desc) {
-            for (const scene::InstanceValueDesc& v : (*desc)->values) {
-                const auto id = ids.find(v.name);
-                if (id == ids.end()) continue;
-                std::copy(v.value.begin(), v.value.end(), &instance_values_[4 * (i * names.size() + id->second)]);
-            }
+    for (std::size_t i = 0; i < list_.meshes.size(); ++i) {
+        for (const scene::InstanceValueDesc& v : list_.values(list_.meshes[i])) {
+            const auto id = ids.find(v.name);
+            if (id == ids.end()) continue;
+            std::copy(v.value.begin(), v.value.end(), &instance_values_[4 * (i * names.size() + id->second)]);
         }
     }
 }
 
-void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_material) {
-    for (const PlacedMesh& p : placed_) {
-        const int m = p.desc->mesh;
+void GeometryPool::make_instances(const Sources& sources, int default_material) {
+    for (const PlacedMesh& p : list_.meshes) {
+        const int m = p.mesh;
         const MeshRange& r = ranges_[m];
         nodes::InstanceInfo info;
         info.object_to_world = p.transform;
@@ -198,13 +177,10 @@ void GeometryPool::make_instances(const scene::SceneDesc& desc, int default_mate
         holdout_.push_back(p.desc->holdout);
         visibility_.push_back(p.visibility);
         any_holdout_ = any_holdout_ || p.desc->holdout;
-        const auto& slots = desc.meshes[m].slots;
+        const auto& slots = sources[m]->slots;
         const int slot_count = slots.empty() ? 1 : *std::max_element(slots.begin(), slots.end()) + 1;
         for (int s = 0; s < slot_count; ++s) {
-            // A slot beyond the list takes the last material, as Blender does.
-            const auto& list = p.desc->materials;
-            const int id = list.empty() ? -1 : list[std::min<std::size_t>(s, list.size() - 1)];
-            slot_materials_.push_back(id < 0 ? default_material : id);
+            slot_materials_.push_back(material_of_slot(*p.desc, s, default_material));
         }
     }
     if (infos_.empty()) {

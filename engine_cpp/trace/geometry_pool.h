@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scene/scene_desc.h"
+#include "trace/placed_list.h"
 #include "trace/scene_view.h"
 
 #include <cstdint>
@@ -12,22 +13,22 @@
 
 namespace cardioid::trace {
 
-struct PlacedMesh {
-    const scene::InstanceDesc* desc = nullptr;
-    Affine transform;
-    std::uint8_t visibility = scene::visible_all;
-    std::int32_t group = -1;  ///< the placed group that it stands in, of GeometryPool's list; -1: none
-};
-
 /// What programs read by name: the index is the id.
 struct PoolNames {
     std::vector<std::string> attributes, instance_values;
 };
 
+/// Meshes that stand in for those of the scene in some of their places.
+struct MeshVariants {
+    std::vector<scene::MeshDesc> meshes;
+    std::vector<std::int32_t> of;  ///< by place in PlacedList: index into `meshes`, or -1; empty: none at all
+};
+
 class GeometryPool {
 public:
-    /// `default_material`: id for empty slots.
-    GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material);
+    /// `default_material`: id for empty slots. Copies what it needs of `variants`.
+    GeometryPool(const scene::SceneDesc& desc, const PoolNames& names, int default_material,
+                 const MeshVariants& variants = {});
 
     void fill(SceneView& view) const;
     std::int64_t memory_bytes() const;
@@ -38,7 +39,7 @@ public:
         bool multi_material = false;
     };
     const std::vector<MeshRange>& meshes() const { return ranges_; }
-    const std::vector<PlacedMesh>& placed() const { return placed_; }
+    const std::vector<PlacedMesh>& placed() const { return list_.meshes; }
     const float* positions(int mesh) const { return positions_.data() + 3 * std::size_t{ranges_[mesh].first_vertex}; }
     const std::uint32_t* triangles(int mesh) const {
         return triangles_.data() + 3 * std::size_t{ranges_[mesh].first_triangle};
@@ -52,21 +53,15 @@ public:
     void world_triangle(int instance, std::uint32_t triangle, Float3 corner[3]) const;
 
 private:
-    void flatten(const scene::SceneDesc& desc);
-    void place(const scene::SceneDesc& desc, const scene::InstanceDesc& instance, const PlacedMesh& parent, int depth);
-    void copy_meshes(const scene::SceneDesc& desc);
-    void copy_attributes(const scene::SceneDesc& desc, const std::vector<std::string>& names);
+    using Sources = std::vector<const scene::MeshDesc*>;
+
+    void copy_meshes(const Sources& sources);
+    void copy_attributes(const Sources& sources, const std::vector<std::string>& names);
     void add_attribute(const scene::MeshDesc& mesh, const std::string& name, nodes::AttributeRef& ref);
     void collect_values(const std::vector<std::string>& names);
-    void make_instances(const scene::SceneDesc& desc, int default_material);
+    void make_instances(const Sources& sources, int default_material);
 
-    struct PlacedGroup {
-        const scene::InstanceDesc* desc;
-        std::int32_t outer;
-    };
-
-    std::vector<PlacedMesh> placed_;
-    std::vector<PlacedGroup> groups_;
+    PlacedList list_;
     std::vector<MeshRange> ranges_;
     std::vector<float> positions_;
     std::vector<std::uint32_t> triangles_;

@@ -6,6 +6,7 @@
 #include "nodes/compile.h"
 #include "nodes/run.h"
 #include "trace/bounds.h"
+#include "trace/displace.h"
 #include "trace/embree_scene.h"
 #include "trace/geometry_pool.h"
 
@@ -67,8 +68,7 @@ struct TraceableScene::Impl {
     void build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress);
     void build_lights(const scene::SceneDesc& desc, const light::Checkpoint& checkpoint);
     std::vector<light::LampInput> lamp_inputs(const scene::SceneDesc& desc) const;
-    std::vector<light::EmissiveTriangle> emissive_triangles(const scene::SceneDesc& desc,
-                                                            const light::Checkpoint& checkpoint);
+    std::vector<light::EmissiveTriangle> emissive_triangles(const light::Checkpoint& checkpoint);
     /// Some lobe of the instance may be specular (spec 1).
     bool may_cast(int instance) const;
     void evaluate_world(int n, const Float3* directions, Float3* radiance) const;
@@ -93,13 +93,6 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
         const Stopwatch watch(s.stats.materials_seconds);
         s.compile_graphs(desc);
     }
-    stage("Preparing geometry");
-    s.build_geometry(desc, progress);
-    stage("Preparing lights");
-    {
-        const Stopwatch watch(s.stats.lights_seconds);
-        s.build_lights(desc, [&] { stage("Preparing lights"); });
-    }
     SceneView& v = s.view;
     if (desc.camera) v.camera.desc = *desc.camera;
     const auto& plane = v.camera.desc.view_plane;
@@ -111,6 +104,13 @@ TraceableScene::TraceableScene(const scene::SceneDesc& desc, const BuildProgress
     v.geometry.world_to_camera = inverse(v.camera.desc.transform);
     v.geometry.view_plane = plane;
     v.geometry.orthographic = orthographic;
+    stage("Preparing geometry");
+    s.build_geometry(desc, progress);
+    stage("Preparing lights");
+    {
+        const Stopwatch watch(s.stats.lights_seconds);
+        s.build_lights(desc, [&] { stage("Preparing lights"); });
+    }
     s.stats.image_bytes = s.images->memory_bytes();
     s.stats.light_bytes = s.lights->memory_bytes();
 }
@@ -160,7 +160,9 @@ void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
         m.transparency = &graphs[i].of(nodes::Purpose::transparency);
         m.info = graphs[i].info;
         if (m.info.has_volume) m.volume = &graphs[i].of(nodes::Purpose::volume);
-        if (m.info.has_displacement) m.displacement = &graphs[i].of(nodes::Purpose::displacement);
+        const bool moves =
+            i < desc.materials.size() && desc.materials[i].displacement_method != scene::DisplacementMethod::bump;
+        if (moves && m.info.has_displacement) m.displacement = &graphs[i].of(nodes::Purpose::displacement);
         if (i < desc.materials.size()) {
             m.pass_index = desc.materials[i].pass_index;
             m.emission_sampled = desc.materials[i].sample_emission && m.info.has_emission;
@@ -177,7 +179,10 @@ void TraceableScene::Impl::compile_graphs(const scene::SceneDesc& desc) {
 void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const BuildProgress& progress) {
     {
         const Stopwatch watch(stats.geometry_seconds);
-        pool = std::make_unique<GeometryPool>(desc, names, default_material());
+        const MeshVariants displaced = displaced_meshes(desc, names, view, materials, default_material(), [&] {
+            if (progress("Displacing surfaces")) throw BuildCancelled{};
+        });
+        pool = std::make_unique<GeometryPool>(desc, names, default_material(), displaced);
         pool->fill(view);
     }
     if (progress("Building the ray tracing tree")) throw BuildCancelled{};
@@ -196,7 +201,7 @@ void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const Bu
     view.embree = embree->top();
     const auto& placed = pool->placed();
     for (std::size_t i = 0; i < placed.size(); ++i) {
-        stats.triangles += pool->meshes()[placed[i].desc->mesh].triangles;
+        stats.triangles += pool->meshes()[placed[i].mesh].triangles;
         view.has_transparent_shadows = view.has_transparent_shadows || has_transparency(static_cast<int>(i));
         for (const int id : pool->materials_of(static_cast<int>(i)))
             view.has_volumes = view.has_volumes || materials[id].info.has_volume;
@@ -230,8 +235,7 @@ std::vector<light::LampInput> TraceableScene::Impl::lamp_inputs(const scene::Sce
     return lamps;
 }
 
-std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(const scene::SceneDesc& desc,
-                                                                              const light::Checkpoint& checkpoint) {
+std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(const light::Checkpoint& checkpoint) {
     std::vector<light::EmissiveTriangle> list;
     const auto& placed = pool->placed();
     for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -242,7 +246,7 @@ std::vector<light::EmissiveTriangle> TraceableScene::Impl::emissive_triangles(co
             return m.emission_sampled && !(m.info.constant_emission && is_black(m.info.emission_value));
         };
         if (std::none_of(ids.begin(), ids.end(), shines)) continue;
-        const std::uint32_t count = static_cast<std::uint32_t>(desc.meshes[placed[i].desc->mesh].triangles.size() / 3);
+        const std::uint32_t count = pool->meshes()[placed[i].mesh].triangles;
         for (std::uint32_t t = 0; t < count; ++t) {
             if (t % 65536 == 0) checkpoint();
             const int id = pool->material(instance, t);
@@ -288,7 +292,7 @@ void TraceableScene::Impl::evaluate_world(int n, const Float3* directions, Float
 
 void TraceableScene::Impl::build_lights(const scene::SceneDesc& desc, const light::Checkpoint& checkpoint) {
     const auto lamps = lamp_inputs(desc);
-    const auto triangles = emissive_triangles(desc, checkpoint);
+    const auto triangles = emissive_triangles(checkpoint);
     light::WorldInput world;
     if (view.has_world) {
         const nodes::ProgramInfo& info = materials[view.world_program].info;
