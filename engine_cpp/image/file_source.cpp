@@ -3,13 +3,13 @@
 
 #include "image/memory_file.h"
 #include "scene/error.h"
+#include "scene/image_path.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagecache.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace cardioid::image {
 namespace {
@@ -76,24 +76,6 @@ std::string name_by_content(const std::vector<std::uint8_t>& bytes) {
     return {};
 }
 
-struct MovieFrame {
-    std::string path;
-    int frame;
-};
-
-/// Splits "film.mp4#frame=12", how hosts name a picture of a movie; a file that really has such a name is a file.
-MovieFrame movie_frame(const std::string& path) {
-    static constexpr std::string_view mark = "#frame=";
-    const auto at = path.rfind(mark);
-    if (at == std::string::npos || OIIO::Filesystem::exists(path)) return {path, 0};
-    const char* digits = path.data() + at + mark.size();
-    const char* end = path.data() + path.size();
-    int frame = 0;
-    if (const auto read = std::from_chars(digits, end, frame); read.ec != std::errc() || read.ptr != end || frame < 0)
-        return {path, 0};
-    return {path.substr(0, at), frame};
-}
-
 std::string first_line(std::string text) {
     if (const auto end = text.find('\n'); end != std::string::npos) text.resize(end);
     return text;
@@ -126,8 +108,8 @@ class FileSource : public Source {
 public:
     FileSource(const scene::ImageDesc& image, FileCache& cache)
         : cache_(*cache.impl_->cache),
-          path_(movie_frame(image.path).path),
-          frame_(movie_frame(image.path).frame),
+          path_(scene::image_path(image.path).file),
+          frame_(scene::image_path(image.path).frame),
           packed_(image.packed),
           in_memory_(image.source == scene::ImageSource::packed) {
         const Opened in = open();

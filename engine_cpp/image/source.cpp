@@ -2,6 +2,7 @@
 #include "image/source.h"
 
 #include "scene/error.h"
+#include "scene/image_path.h"
 
 #include <algorithm>
 #include <cstring>
@@ -52,9 +53,9 @@ std::unique_ptr<Source> open_source(const scene::ImageDesc& image, FileCache& ca
     }
     std::error_code error;
     if (image.path.empty()) throw SceneError("has no file");
-    if (!std::filesystem::exists(image.path, error))
-        throw SceneError("is missing: '" + image.path + "' does not exist");
-    if (!std::filesystem::is_regular_file(image.path, error)) throw SceneError("is not a file: '" + image.path + "'");
+    const std::string file = scene::image_path(image.path).file;
+    if (!std::filesystem::exists(file, error)) throw SceneError("is missing: '" + file + "' does not exist");
+    if (!std::filesystem::is_regular_file(file, error)) throw SceneError("is not a file: '" + image.path + "'");
     return open_file(image, cache);
 }
 

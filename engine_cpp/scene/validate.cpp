@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/validate.h"
 
+#include "scene/image_path.h"
 #include "scene/problems.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ void validate_images(SceneDesc& scene, ProblemList& problems) {
         std::error_code error;
         if (image.path.empty())
             problems.warn(who, "has no file; shown magenta");
-        else if (!is_tiled_name(image.path) && !std::filesystem::exists(image.path, error))
+        else if (!is_tiled_name(image.path) && !std::filesystem::exists(image_path(image.path).file, error))
             problems.warn(who, "is missing: '" + image.path + "' does not exist; shown magenta");
     }
 }
