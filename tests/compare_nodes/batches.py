@@ -24,7 +24,7 @@ SECONDS = 240.0
 NOISY_SAMPLES = 400
 SAMPLES = {"CYCLES": 1, "CARDIOID": 16}
 """Cycles' first sample is the pixel's centre; Cardioid's many lie around it, within stage.FILTER, and are averaged."""
-WARNING = "Material “"
+WARNINGS = ("Material “", "Object “")
 
 
 @dataclass
@@ -45,10 +45,14 @@ def command(host: hosts.Host, argument: str) -> list[str]:
 
 @functools.cache
 def addon() -> Path:
-    """A copy of the add-on, so that a build meanwhile does not change the engine between two Blenders."""
+    """A copy of the add-on, so that a build meanwhile does not change the engine between two Blenders.
+
+    CARDIOID_ADDON names another folder to take it from.
+    """
+    source = os.environ.get("CARDIOID_ADDON", HERE.parents[1] / "addon")
     folder = Path(tempfile.mkdtemp(prefix="compare-nodes-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    shutil.copytree(HERE.parents[1] / "addon", folder / "addon", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(source, folder / "addon", ignore=shutil.ignore_patterns("__pycache__"))
     return folder / "addon"
 
 
@@ -122,12 +126,12 @@ def render_batch(host: hosts.Host, engine: str, names: list[str], noisy: bool, r
 
 
 def warnings_of(text: str, names: list[str]) -> dict[str, str]:
-    """What Cardioid says about the cases' materials."""
+    """What Cardioid says about the cases' materials and objects."""
     known, found = set(names), {}
     for entry in text.splitlines():
-        at = entry.find(WARNING)
-        if at >= 0:
-            name, _, words = entry[at + len(WARNING) :].partition("”")
-            if name in known:
+        for start_of in WARNINGS:
+            _, there, rest = entry.partition(start_of)
+            name, _, words = rest.partition("”")
+            if there and name in known:
                 found.setdefault(name, words.lstrip(": "))
     return found

@@ -10,6 +10,9 @@ import numpy as np
 import pixels
 from batches import Rendered
 
+LEFT_OUT = "is left out"
+"""How the add-on's warning begins when an object could not be handed to the engine."""
+
 
 @dataclass
 class Result:
@@ -49,6 +52,8 @@ def result_of(host: str, name: str, told: dict, ours: Any, reference: Any) -> Re
     result = Result(host, name, told["uses"], told["tolerance"], warning=ours.warnings.get(name, ""))
     result.skipped = reference.skipped.get(name, "")
     result.problem = reference.problems.get(name) or ours.problems.get(name) or ""
+    if result.warning.startswith(LEFT_OUT):
+        result.problem = "Cardioid: " + result.warning
     if result.skipped or result.problem:
         return result
     a, b = ours.pictures.get(name), reference.pictures.get(name)

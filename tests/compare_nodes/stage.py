@@ -6,7 +6,7 @@ centres of the pixels: Cycles' first sample is there, and a narrow filter keeps 
 lies in the plane; `facets` has faces turned as on a dome, `back` the same seen from behind; `dome` is one smooth
 surface, `coarse` one of few faces; `placed` is a dome whose object is turned and stretched; `roof` is folded, `sheet`
 flat and joined; `through` lies behind a transparent plane, `glass` behind a refracting one without effect, `mirror`
-stands and is seen in a mirror.
+stands and is seen in a mirror; `instances` and `particles` have sixteen small copies.
 """
 
 from __future__ import annotations
@@ -117,8 +117,8 @@ def _attributes(data: bpy.types.Mesh, smooth: np.ndarray, count: int) -> None:
     padded[: count * 4] = smooth.reshape(-1, 2)
     layer.data.foreach_set("uv", padded.ravel())
     nudge(data, 0.0)
-    data.uv_layers.active = data.uv_layers["UVMap"]
-    data.uv_layers["UVMap"].active_render = True
+    active = data.uv_layers["Smooth" if data.name in ("dome", "coarse", "placed") else "UVMap"]
+    data.uv_layers.active, active.active_render = active, True
     data["my_number"], data["of_mesh"] = 0.1, 0.35
     rng = np.random.default_rng(7)
     faces = len(data.polygons)
@@ -183,10 +183,11 @@ def camera(columns: int, rows: int) -> None:
     scene.render.resolution_x, scene.render.resolution_y = columns * PIXELS, rows * PIXELS
 
 
-def move_camera(amount: float) -> None:
-    eye = bpy.context.scene.camera
-    eye.location.x += amount * FILTER / PIXELS
-    eye.location.y -= 0.7 * amount * FILTER / PIXELS
+def move_camera(x: float, y: float) -> None:
+    """From where `camera` has put it, in units of FILTER."""
+    scene = bpy.context.scene
+    width, height = scene.render.resolution_x / PIXELS, scene.render.resolution_y / PIXELS
+    scene.camera.location.xy = width / 2 + x * FILTER / PIXELS, height / 2 + y * FILTER / PIXELS
 
 
 def cover_material(kind: str) -> bpy.types.Material:
@@ -209,8 +210,48 @@ def cover_material(kind: str) -> bpy.types.Material:
     return material
 
 
+def copies(name: str, kind: str, material: bpy.types.Material, column: int, row: int) -> bpy.types.Object:
+    """Sixteen small squares in the tile: instances on vertices (`instances`) or particles of different sizes."""
+    low = 1.0 / 8
+    data = bpy.data.meshes.new("copy")
+    data.from_pydata([(-low, -low, 0), (low, -low, 0), (low, low, 0), (-low, low, 0)], [], [(0, 1, 2, 3)])
+    data.uv_layers.new(name="UVMap")
+    data.materials.append(material)
+    small = bpy.data.objects.new(name, data)
+    small.pass_index, small.color = 5, (0.7, 0.1, 0.3, 0.6)
+    small["my_number"] = 0.2
+    seeds = bpy.data.meshes.new("places")
+    points = [(low + 0.25 * (i % 4), low + 0.25 * (i // 4), 0.0) for i in range(16)]
+    seeds.from_pydata(points, [], [tuple(range(i, i + 3)) for i in range(0, 14)] if kind == "particles" else [])
+    seeds.uv_layers.new(name="UVMap")
+    parent = bpy.data.objects.new(name + " places", seeds)
+    parent.location = (column, row, 0.0)
+    parent["my_number"] = 0.9
+    for item in (small, parent):
+        bpy.context.scene.collection.objects.link(item)
+    parent.show_instancer_for_render = False
+    if kind == "instances":
+        small.parent, parent.instance_type = parent, "VERTS"
+    else:
+        small.location = (-50.0, -50.0, 0.0)
+        _particles(parent, small)
+    return parent
+
+
+def _particles(parent: bpy.types.Object, small: bpy.types.Object) -> None:
+    """Sixteen that were born at frame -9 to 1, of different sizes and life times."""
+    parent.modifiers.new("particles", "PARTICLE_SYSTEM")
+    system = parent.particle_systems[0].settings
+    system.count, system.frame_start, system.frame_end, system.lifetime = 16, -9.0, 1.0, 40.0
+    system.lifetime_random, system.emit_from, system.use_emit_random = 0.5, "VERT", False
+    system.physics_type, system.render_type, system.instance_object = "NO", "OBJECT", small
+    system.particle_size, system.size_random = 1.0, 0.6
+
+
 def place(name: str, kind: str, material: bpy.types.Material, column: int, row: int, meshes: dict) -> bpy.types.Object:
     """The tile's object; `meshes` keeps what tiles share."""
+    if kind in ("instances", "particles"):
+        return copies(name, kind, material, column, row)
     if kind not in meshes:
         meshes[kind] = mesh(kind)
         if kind in ("through", "glass", "mirror"):

@@ -5,8 +5,8 @@
     python worker.py -- TASK.json          (with the bpy wheel)
 
 TASK.json: {"engine": "CYCLES" or "CARDIOID", "cases": [names], "samples": n, "moved": bool, "out": path}. `out` (.npz)
-gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, two more with the swept values
-moved by ±NUDGE and the camera by a hundredth of a pixel. Beside it `out`.json: the cases in order, and those that this
+gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, more with the swept
+values and the camera moved by MOVES. Beside it `out`.json: the cases in order, and those that this
 Blender cannot build with the reason.
 """
 
@@ -23,7 +23,8 @@ import bpy  # first: in a wheel its libraries must load before the engine's
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-sys.path[:0] = [str(HERE), str(ROOT / "tests" / "render"), str(ROOT / "scenes"), os.environ.get("CARDIOID_ADDON", str(ROOT / "addon"))]
+ADDON = os.environ.get("CARDIOID_ADDON", str(ROOT / "addon"))
+sys.path[:0] = [str(HERE), str(ROOT / "tests" / "render"), str(ROOT / "scenes"), ADDON]
 
 import addon_utils  # noqa: E402
 import kit  # noqa: E402
@@ -32,6 +33,9 @@ import registry  # noqa: E402
 import stage  # noqa: E402
 from nodes import load_all  # noqa: E402
 from tile import Tile  # noqa: E402
+
+MOVES = ((1.0, 1.2, 1.0), (-1.0, -1.0, -1.2), (0.0, 1.0, -1.0), (0.0, -1.0, 1.0))
+"""Of the swept values in units of NUDGE, and of the camera in units of FILTER."""
 
 
 def settings(scene: bpy.types.Scene, engine: str) -> None:
@@ -109,8 +113,8 @@ def run(task: dict, folder: str) -> None:
     stage.camera(*stage.grid(len(built)))
     settings(scene, task["engine"])
     pictures = [picture(folder, len(built))]
-    for amount in (1.0, -1.0) if task["moved"] else ():
-        stage.move_camera(amount)
+    for amount, x, y in MOVES if task["moved"] else ():
+        stage.move_camera(x, y)
         for kind in stage.KINDS:
             if kind in meshes:
                 stage.nudge(meshes[kind], amount * stage.NUDGE)

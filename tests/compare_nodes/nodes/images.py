@@ -11,7 +11,7 @@ import pictures
 from registry import case
 from tile import AROUND, P1, U1, V1, VEC, U, V, assign, combined, scaled
 
-ABOUT = combined(scaled(U1, -0.8, 1.6), scaled(V1, -0.7, 1.9), P1)
+ABOUT = combined(scaled(U1, -0.81, 1.63), scaled(V1, -0.71, 1.93), P1)
 """Coordinates around the picture, on both sides of it."""
 INSIDE = combined(scaled(U1, 0.06, 0.93), scaled(V1, 0.07, 0.94), 0.0)
 
@@ -101,7 +101,7 @@ for is_float, packed in product((False, True), (False, True)):
         textured(f"image/painted/{'float' if is_float else 'byte'}{' packed' if packed else ''}/{output}",
                  lambda tile, f=is_float, p=packed: painted(tile, f, p), INSIDE, output)  # fmt: skip
 
-FIELDS = combined(scaled(U1, -0.2, 2.3), scaled(V1, -0.2, 2.2), 0.0)
+FIELDS = combined(scaled(U1, -0.21, 2.31), scaled(V1, -0.19, 2.17), 0.0)
 for way in ("Linear", "Closest"):
     textured(f"image/udim/{way}", pictures.udim, FIELDS, interpolation=way)
 textured("image/udim/Alpha", pictures.udim, FIELDS, "Alpha")
@@ -159,8 +159,8 @@ environment("environment/none", lambda tile: None)
 SUN = (0.3, -0.5, 0.6)
 
 
-def sky(name: str, kind: str, at=AROUND, **properties) -> None:
-    @case(name, "TexSky")
+def sky(name: str, kind: str, at=AROUND, stage: str = "flat", **properties) -> None:
+    @case(name, "TexSky", stage=stage)
     def build(tile):
         node = tile.node("TexSky", {"Vector": at} if at else None, sky_type=kind)
         for key, value in properties.items():
@@ -175,16 +175,15 @@ for turbidity in (2.2, 6.0):
             sun_direction=SUN)  # fmt: skip
 for kind in ("PREETHAM", "HOSEK_WILKIE"):
     sky(f"sky/{kind}/low sun", kind, sun_direction=(0.9, 0.3, 0.05))
-    sky(f"sky/{kind}/no vector", kind, None, sun_direction=SUN)
-for kind in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):
+    sky(f"sky/{kind}/no vector", kind, None, "placed", sun_direction=SUN)
+for kind in ("NISHITA", "SINGLE_SCATTERING", "MULTIPLE_SCATTERING"):  # these have no input: generated coordinates
     for disc in (False, True):
-        sky(f"sky/{kind}/{'disc' if disc else 'no disc'}", kind, sun_disc=disc, sun_elevation=0.4, sun_rotation=0.7,
-            sun_size=0.3)  # fmt: skip
+        sky(f"sky/{kind}/{'disc' if disc else 'no disc'}", kind, None, "placed", sun_disc=disc, sun_elevation=0.4,
+            sun_rotation=0.7, sun_size=0.3)  # fmt: skip
     dense = {"altitude": 3000.0, "air_density": 2.0, "ozone_density": 4.0, "sun_disc": False, "sun_elevation": 0.1}
     dust = "dust_density" if kind == "NISHITA" else "aerosol_density"
-    sky(f"sky/{kind}/dense", kind, **dense, **{dust: 5.0})
-    sky(f"sky/{kind}/below", kind, sun_elevation=-0.1, sun_disc=True)
-    sky(f"sky/{kind}/no vector", kind, None, sun_disc=False)
+    sky(f"sky/{kind}/dense", kind, None, "placed", **dense, **{dust: 5.0})
+    sky(f"sky/{kind}/below", kind, None, "placed", sun_elevation=-0.1, sun_disc=True)
 
 
 @case("ies/file", "TexIES")

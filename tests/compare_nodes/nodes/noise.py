@@ -49,8 +49,8 @@ row("noise/linked lacunarity", "TexNoise",
     {"Vector": VEC, "Scale": 2.0, "Detail": 4.0, "Lacunarity": scaled(P1, 0.0, 3.0)}, tolerance=NOISE)  # fmt: skip
 row("noise/no vector", "TexNoise", {"Scale": 3.0}, tolerance=NOISE, floor=0.5, stage="placed")
 row("musgrave/linked", "TexMusgrave",
-    {"Vector": VEC, "Scale": 2.0, "Detail": scaled(U1, -1.0, 15.0), "Dimension": scaled(V1, 0.0, 2.0),
-     "Lacunarity": scaled(P1, 0.0, 3.0)}, tolerance=NOISE)  # fmt: skip
+    {"Vector": VEC, "Scale": 2.0, "Detail": scaled(U1, -1.0, 9.0), "Dimension": scaled(V1, 0.0, 2.0),
+     "Lacunarity": scaled(P1, 0.0, 2.2)}, tolerance=NOISE)  # fmt: skip
 row("musgrave/ridged linked", "TexMusgrave",
     {"Vector": VEC, "Detail": scaled(U1, -1.0, 15.0), "Dimension": P, "Offset": V, "Gain": Q},
     musgrave_type="RIDGED_MULTIFRACTAL", tolerance=NOISE)  # fmt: skip

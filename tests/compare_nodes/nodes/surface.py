@@ -13,11 +13,12 @@ EXACT_PLACE = 1.0
 """Floor of values that follow the place of the sample (0.005 pixels are 0.0002 metres)."""
 
 for stage in ("flat", "facets", "back", "coarse", "placed"):
-    for output in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Backfacing", "Random Per Island"):
+    for output in ("Position", "Normal", "Tangent", "True Normal", "Incoming", "Backfacing"):
         row(f"geometry/{output}/{stage}", "NewGeometry", None, output, stage=stage, floor=EXACT_PLACE)
+    row(f"geometry/Random Per Island/{stage}", "NewGeometry", None, "Random Per Island", stage=stage)
 for stage in ("coarse", "placed"):
     row(f"geometry/Pointiness/{stage}", "NewGeometry", None, "Pointiness", stage=stage, floor=0.3)
-row("geometry/Parametric/coarse", "NewGeometry", None, "Parametric", stage="coarse", floor=5.0)
+row("geometry/Parametric/coarse", "NewGeometry", None, "Parametric", stage="coarse", floor=1.0)
 
 for output in ("Generated", "Normal", "UV", "Object", "Camera", "Window", "Reflection"):
     for stage in ("flat", "facets", "placed"):
@@ -46,6 +47,19 @@ for output in ("Location", "Color", "Alpha", "Object Index", "Material Index", "
     row(f"object info/{output}", "ObjectInfo", None, output, stage="placed")
 for output in ("Index", "Random", "Age", "Lifetime", "Location", "Size", "Velocity", "Angular Velocity"):
     row(f"particle info/{output}", "ParticleInfo", None, output)
+    row(f"particle info/{output}/of particles", "ParticleInfo", None, output, stage="particles")
+for stage in ("instances", "particles"):
+    for output in ("Location", "Color", "Alpha", "Object Index", "Material Index", "Random"):
+        row(f"object info/{output}/{stage}", "ObjectInfo", None, output, stage=stage)
+    for output in ("Generated", "UV", "Object"):
+        row(f"texture coordinate/{output}/from instancer/{stage}", "TexCoord", None, output, stage=stage,
+            from_instancer=True, floor=EXACT_PLACE)  # fmt: skip
+        row(f"texture coordinate/{output}/{stage}", "TexCoord", None, output, stage=stage, floor=EXACT_PLACE)
+    for kind in ("OBJECT", "INSTANCER"):
+        row(f"attribute/{kind.lower()}/my_number/{stage}", "Attribute", None, "Fac", attribute_type=kind,
+            attribute_name="my_number", stage=stage)  # fmt: skip
+    row(f"geometry/Random Per Island/{stage}", "NewGeometry", None, "Random Per Island", stage=stage)
+    row(f"uv map/from instancer/{stage}", "UVMap", stage=stage, from_instancer=True, floor=EXACT_PLACE)
 for output in ("Is Strand", "Intercept", "Length", "Thickness", "Tangent Normal", "Random"):
     row(f"hair info/{output}", "HairInfo", None, output, stage="facets")
 for output in ("Position", "Radius", "Random"):
@@ -102,12 +116,12 @@ row("layer weight/normal fresnel", "LayerWeight", {"Blend": 0.6, "Normal": AROUN
 
 for size in (0.01, 0.05):
     row(f"wireframe/{size}", "Wireframe", {"Size": size}, stage="coarse")
-    row(f"wireframe/{size}/facets", "Wireframe", {"Size": size * 0.1}, stage="facets")
+    row(f"wireframe/{size}/placed", "Wireframe", {"Size": size * 0.4}, stage="placed")
 row("wireframe/pixels", "Wireframe", {"Size": 2.0}, stage="coarse", use_pixel_size=True)
 
 for axis, stage in product("XYZ", ("placed", "facets")):
     row(f"tangent/radial {axis}/{stage}", "Tangent", stage=stage, direction_type="RADIAL", axis=axis, floor=EXACT_PLACE)
-for name, stage in product(("Smooth", "", "Missing"), ("coarse", "dome", "placed", "facets")):
+for name, stage in product(("Smooth", "", "UVMap", "Missing"), ("coarse", "dome", "placed", "facets")):
     row(f"tangent/uv {name or 'unnamed'}/{stage}", "Tangent", stage=stage, direction_type="UV_MAP", uv_map=name,
         floor=EXACT_PLACE)  # fmt: skip
 
@@ -134,6 +148,13 @@ def waves(tile):
     return tile.math("MULTIPLY", across, tile.math("COSINE", tile.math("MULTIPLY", split.outputs[1], 7.0)))
 
 
+def hills(tile):
+    """The same kind of height by position."""
+    place = tile.node("SeparateXYZ", {0: tile.node("TexCoord").outputs["Object"]})
+    across = tile.math("SINE", tile.math("MULTIPLY", place.outputs[0], 9.0))
+    return tile.math("MULTIPLY", across, tile.math("COSINE", tile.math("MULTIPLY", place.outputs[1], 7.0)))
+
+
 BUMPY = {"Height": waves, "Distance": 0.08}
 for stage in ("flat", "dome", "placed", "back"):
     row(f"bump/{stage}", "Bump", {**BUMPY, "Strength": 0.8}, stage=stage, floor=EXACT_PLACE)
@@ -143,6 +164,8 @@ row("bump/linked", "Bump", {"Height": waves, "Strength": scaled(P1, 0.0, 1.0), "
 row("bump/normal", "Bump", {**BUMPY, "Normal": vector_op("NORMALIZE", (0.3, 0.2, 0.9))}, stage="dome",
     floor=EXACT_PLACE)  # fmt: skip
 row("bump/filter width", "Bump", {**BUMPY, "Filter Width": 1.0}, stage="dome", floor=EXACT_PLACE)
+for stage in ("back", "dome"):
+    row(f"bump/of position/{stage}", "Bump", {"Height": hills, "Distance": 0.08}, stage=stage, floor=EXACT_PLACE)
 row("bump/no height", "Bump", {"Strength": 1.0}, stage="dome", floor=EXACT_PLACE)
 
 
@@ -196,7 +219,8 @@ for output, inside, local in product(("Color", "AO"), (False, True), (False, Tru
     custom(output, inside, local, 0.3)
 custom("AO", False, True, 0.0)
 row("ambient occlusion/normal", "AmbientOcclusion",
-    {"Distance": 0.5, "Normal": vector_op("NORMALIZE", (0.5, 0.0, 1.0))}, "AO", stage="roof", noisy=True, only_local=True)  # fmt: skip
+    {"Distance": 0.5, "Normal": vector_op("NORMALIZE", (0.5, 0.0, 1.0))}, "AO", stage="roof", noisy=True,
+    only_local=True)  # fmt: skip
 row("ambient occlusion/linked", "AmbientOcclusion", {"Distance": scaled(V1, 0.0, 0.6), "Color": COL}, "Color",
     stage="roof", noisy=True, only_local=True)  # fmt: skip
 

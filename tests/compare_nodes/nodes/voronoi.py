@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from nodes.noise import DIMENSIONS, place
 from registry import NOISE, row
 from tile import P1, Q1, U1, V1, VEC, scaled
+
+from nodes.noise import DIMENSIONS, place
 
 METRICS = ("EUCLIDEAN", "MANHATTAN", "CHEBYCHEV", "MINKOWSKI")
 
@@ -43,7 +44,7 @@ row("voronoi/linked", "TexVoronoi",
     tolerance=NOISE)  # fmt: skip
 row("voronoi/linked octaves", "TexVoronoi",
     {"Vector": VEC, "Scale": 2.0, "Detail": scaled(U1, -1.0, 15.5), "Roughness": scaled(V1, -0.2, 1.2),
-     "Lacunarity": scaled(P1, 0.0, 3.0)}, "Distance", tolerance=NOISE)  # fmt: skip
+     "Lacunarity": scaled(P1, 0.0, 2.2)}, "Distance", tolerance=NOISE)  # fmt: skip
 row("voronoi/smoothness", "TexVoronoi", {"Vector": VEC, "Scale": 2.0, "Smoothness": scaled(Q1, -0.2, 1.4)}, "Distance",
     feature="SMOOTH_F1", tolerance=NOISE)  # fmt: skip
 row("voronoi/exponent", "TexVoronoi", {"Vector": VEC, "Scale": 2.0, "Exponent": scaled(Q1, 0.0, 32.0)}, "Distance",
