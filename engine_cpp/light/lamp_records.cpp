@@ -45,6 +45,16 @@ Float3 any_perpendicular(Float3 n) {
     return normalize(cross(n, other));
 }
 
+/// The first `count` rows of the inverse of the linear part; zeros where there is none.
+void put_rows(const Affine& t, int field, int count, LampRecord& r) {
+    if (t.determinant() == 0) return;
+    const Affine inv = inverse(t);
+    for (int k = 0; k < count; ++k) {
+        const auto row = static_cast<std::size_t>(4 * k);
+        put(r, field + 3 * k, {inv.m[row], inv.m[row + 1], inv.m[row + 2]});
+    }
+}
+
 void make_point(const LampInput& in, LampRecord& r) {
     const LightDesc& d = in.desc;
     const float radius = std::fabs(d.radius) < k_least_radius ? 0 : std::fabs(d.radius);
@@ -64,6 +74,7 @@ void make_point(const LampInput& in, LampRecord& r) {
     r.value[lamp::radius] = radius;
     r.value[lamp::radius_squared] = radius * radius;
     put(r, lamp::normal, direction(d));
+    put_rows(d.transform, lamp::spot_rows, 3, r);
     const Float3 reach{radius, radius, radius};
     extend(r.bounds, at - reach);
     extend(r.bounds, at + reach);
@@ -90,10 +101,7 @@ void make_spot(const LampInput& in, LampRecord& r) {
         put(r, lamp::spot_rows + 6, dir);
     } else {
         // The cone follows the lamp's scale, so a stretched lamp has an elliptic cone.
-        const Affine inv = inverse(t);
-        put(r, lamp::spot_rows, {inv.m[0], inv.m[1], inv.m[2]});
-        put(r, lamp::spot_rows + 3, {inv.m[4], inv.m[5], inv.m[6]});
-        put(r, lamp::spot_rows + 6, Float3{inv.m[8], inv.m[9], inv.m[10]} * -1.0f);
+        for (int k = 6; k < 9; ++k) r.value[lamp::spot_rows + k] *= -1.0f;
         const float u2 = dot(t.column(0), t.column(0)), v2 = dot(t.column(1), t.column(1)),
                     w2 = dot(t.column(2), t.column(2));
         const float slope = std::tan(half);
@@ -127,6 +135,7 @@ void make_sun(const LampInput& in, Float3 scene_min, Float3 scene_max, LampRecor
     put(r, lamp::radiance, value);
     put(r, lamp::normal, toward * -1.0f);
     r.value[lamp::sun_one_minus_cos] = 2 * half_sine * half_sine;
+    put_rows(d.transform, lamp::sun_rows, 2, r);
     r.hittable = !delta;
 
     // For choosing, a sun is a lamp so far away that its direction and distance are the same for the whole scene.
@@ -216,7 +225,7 @@ LampRecord make_lamp_record(const LampInput& in, Float3 scene_min, Float3 scene_
     if (!is_usable(in)) return r;
     const LightDesc& d = in.desc;
     r.number[lamp::program] = in.program;
-    r.number[lamp::flags] = d.cast_shadow ? 0 : lamp::no_shadow;
+    r.number[lamp::flags] = (d.cast_shadow ? 0 : lamp::no_shadow) | (d.legacy_lamp ? lamp::legacy_place : 0);
     r.number[lamp::visibility] = d.visibility;
     r.number[lamp::hit_visibility] = d.use_mis ? d.visibility : d.visibility & scene::visible_camera;
     r.number[lamp::max_bounces] = d.max_bounces;
@@ -225,6 +234,8 @@ LampRecord make_lamp_record(const LampInput& in, Float3 scene_min, Float3 scene_
     r.box_upper = r.bounds.upper;
     const bool gives_light = r.bounds.energy > 0 && std::isfinite(r.bounds.energy);
     r.hittable = r.hittable && gives_light && r.number[lamp::hit_visibility] != 0;
+    // Cycles never shows a sun that is not found by its sampling.
+    r.hittable = r.hittable && (d.use_mis || d.kind != LightKind::sun);
     if (!r.hittable || !d.use_mis) r.number[lamp::flags] |= lamp::never_hit;
     const int lighting =
         scene::visible_diffuse | scene::visible_glossy | scene::visible_transmission | scene::visible_volume;

@@ -33,15 +33,16 @@ enum Field {
     half_u = 14,
     axis_v = 15,  ///< 3
     half_v = 18,
-    inv_area = 19,            ///< area
-    tan_half_spread = 20,     ///< area: k_no_spread without spread
-    spread_factor = 21,       ///< area: attenuation is (tan_half_spread - tan) * spread_factor
-    spot_rows = 11,           ///< 9; rows of the inverse of the linear part, z negated
-    spot_cos = 20,            ///< cosine of the half cone angle
-    spot_inv_blend = 21,      ///< 1 / width of the blend in cosine
+    inv_area = 19,         ///< area
+    tan_half_spread = 20,  ///< area: k_no_spread without spread
+    spread_factor = 21,    ///< area: attenuation is (tan_half_spread - tan) * spread_factor
+    spot_rows = 11,        ///< 9; rows of the inverse of the linear part, of spots with z negated; points have them too
+    spot_cos = 20,         ///< cosine of the half cone angle
+    spot_inv_blend = 21,   ///< 1 / width of the blend in cosine
     spot_one_minus_cos = 22,  ///< of a cone around `normal` that holds all the light
     sun_one_minus_cos = 11,
     sun_inv_tan_area = 12,  ///< legacy sun: 1/(pi tan^2) of its half angle
+    sun_rows = 13,          ///< 6; the first two rows of the inverse of the linear part
 };
 inline constexpr float k_no_spread = 1e30f;
 enum Flag : std::int32_t {
@@ -50,7 +51,8 @@ enum Flag : std::int32_t {
     legacy_sun = 4,
     no_shadow = 8,
     has_spread = 16,
-    never_hit = 32
+    never_hit = 32,
+    legacy_place = 64,  ///< parametric coordinates of before Blender 4.0
 };
 enum IntField { kind = 0, program = 1, flags = 2, visibility = 3, max_bounces = 4, hit_visibility = 5 };
 }  // namespace lamp

@@ -2,6 +2,7 @@
 // Next-event estimation for the recorded vertices. Runs when the paths of the batch are built, so that shadow rays of all
 // bounces fill whole packets.
 #include "path/bsdf_choice.h"
+#include "path/emitter_point.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -99,8 +100,13 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         point.triangle = light.triangle;
         point.u = light.barycentric_u;
         point.v = light.barycentric_v;
-        point.depth = depth;
+        point.depth = one_bounce_further(depth);
+        point.flags = Int(0);
         point.ray_length = light.distance;
+        const Mask lamps = programmed & (light.emitter < Int(scene.lights->lamp_count));
+        if (any(lamps)) place_on_lamp(scene, light.emitter, point, lamps);
+        const Mask triangles = programmed & (light.instance >= Int(0));
+        if (any(triangles)) place_on_triangle(scene, point, triangles);
         const Spectrum e = shade_points(*this, nodes::Purpose::emission, light.program, point, programmed);
         radiance = select(programmed, radiance * e, radiance);
         lit &= not_black(radiance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light that rays found by themselves: emissive surfaces, lamps on the way, the world. MIS against next-event estimation.
 #include "light/emit.h"
-#include "path/tracer.h"
+#include "path/emitter_point.h"
 
 #include <bit>
 
@@ -112,7 +112,9 @@ void Tracer::add_lamp_hits() {
                 at.position = h.position;
                 at.normal_geometric = at.normal = h.normal;
                 at.wo = -d;
-                at.depth = load(rays.depth + i);
+                at.depth = one_bounce_further(load(rays.depth + i));
+                at.ray_length = h.t;
+                place_on_lamp(scene, Int(scene.lights->hittable[which]), at, hit);
                 radiance *= shade_points(*this, nodes::Purpose::emission, Int(h.program), at, hit);
             }
             Float weight = hit_weight(pdf, h.pdf);
@@ -158,7 +160,7 @@ void Tracer::add_world(const std::int32_t* list, int n) {
             ShadedPoint at;
             at.position = d;
             at.normal_geometric = at.normal = at.wo = -d;
-            at.depth = gather(rays.depth, ray);
+            at.depth = one_bounce_further(gather(rays.depth, ray));
             at.flags = flags & Int(0xff);
             radiance = shade_points(*this, nodes::Purpose::emission, Int(scene.world_program), at, shines);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/emit.h"
+#include "path/emitter_point.h"
 #include "path/photons.h"
 #include "photon/guide.h"
 
@@ -52,6 +53,10 @@ void PhotonWalk::start() {
             at.triangle = r.triangle;
             at.u = r.barycentric_u;
             at.v = r.barycentric_v;
+            const Mask lamps = programmed & (e.emitter < Int(scene.lights->lamp_count));
+            if (any(lamps)) place_on_lamp(scene, e.emitter, at, lamps);
+            const Mask triangles = programmed & (r.instance >= Int(0));
+            if (any(triangles)) place_on_triangle(scene, at, triangles);
             const Spectrum emission = shade_points(*this, nodes::Purpose::emission, r.program, at, programmed);
             flux = select(programmed, flux * emission, flux);
         }

@@ -29,7 +29,8 @@ void fill_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int 
     store(s.mesh, gather(scene.instances.mesh, max(instance, Int(0))));
     store(s.barycentric_u, spread(at.u));
     store(s.barycentric_v, spread(at.v));
-    if (at.instance[first] >= 0 && scene.materials[program].info.needs_triangle_frame) {
+    const bool on_mesh = at.instance[first] >= 0 && at.instance[first] < scene.first_lamp_instance;
+    if (on_mesh && scene.materials[program].info.needs_triangle_frame) {
         Vec3 e1, e2;
         triangle_edges(scene, instance, triangle, e1, e2);
         store3(s.dp_du, 0, e1);

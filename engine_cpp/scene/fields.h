@@ -55,6 +55,10 @@ struct EnumNames<IntegratorKind> {
     static constexpr std::string_view names[] = {"path_tracing", "hybrid", "photon_mapping"};
 };
 template <>
+struct EnumNames<FastGi> {
+    static constexpr std::string_view names[] = {"off", "replace", "add"};
+};
+template <>
 struct EnumNames<IndirectCaustics> {
     static constexpr std::string_view names[] = {"photons", "path_tracing", "off"};
 };
@@ -132,6 +136,7 @@ void fields(V& v, Of<InstanceDesc> auto& d) {
     v("name", d.name), v("mesh", d.mesh), v("group", d.group), v("transform", d.transform), v("materials", d.materials);
     v("visibility", d.visibility), v("holdout", d.holdout), v("pass_index", d.pass_index), v("random", d.random);
     v("color", d.color), v("dupli_generated", d.dupli_generated), v("dupli_uv", d.dupli_uv);
+    v("terminator_geometry", d.terminator_geometry), v("terminator_shading", d.terminator_shading);
     v("values", d.values);
 }
 
@@ -173,7 +178,7 @@ void fields(V& v, Of<LightDesc> auto& d) {
     v("cast_shadow", d.cast_shadow), v("use_mis", d.use_mis), v("legacy_lamp", d.legacy_lamp),
         v("soft_falloff", d.soft_falloff);
     v("normalize", d.normalize), v("max_bounces", d.max_bounces), v("visibility", d.visibility);
-    v("portal", d.portal), v("graph", d.graph);
+    v("portal", d.portal), v("object_space", d.object_space), v("random", d.random), v("graph", d.graph);
 }
 
 template <class V>
@@ -208,6 +213,8 @@ void fields(V& v, Of<Settings> auto& d) {
     v("max_volume_bounces", d.max_volume_bounces), v("clamp_direct", d.clamp_direct);
     v("clamp_indirect", d.clamp_indirect), v("reflective_caustics", d.reflective_caustics);
     v("refractive_caustics", d.refractive_caustics), v("filter_glossy", d.filter_glossy);
+    v("fast_gi", d.fast_gi), v("fast_gi_bounces", d.fast_gi_bounces), v("fast_gi_factor", d.fast_gi_factor);
+    v("fast_gi_distance", d.fast_gi_distance);
     v("caustic_roughness", d.caustic_roughness), v("indirect_caustics", d.indirect_caustics);
     v("photons", d.photons), v("photon_radius", d.photon_radius), v("radius_shrink", d.radius_shrink);
     v("radius_schedule", d.radius_schedule), v("guided_emission", d.guided_emission);

@@ -71,6 +71,8 @@ struct InstanceDesc {
     std::array<float, 4> color{1, 1, 1, 1};  ///< Object Info ▸ Color
     Float3 dupli_generated{0, 0, 0};
     std::array<float, 2> dupli_uv{0, 0};
+    float terminator_geometry = 0;  ///< smooth meshes: shadow rays near the terminator start off the faces, [0,1]
+    float terminator_shading = 0;   ///< shadows begin before the light is at the horizon, [0,1]
     std::vector<InstanceValueDesc> values;  ///< those that some material reads
 };
 
@@ -133,7 +135,10 @@ struct LightDesc {
     int max_bounces = 1024;
     std::uint8_t visibility = visible_all & ~visible_camera;
     bool portal = false;
-    GraphDesc graph;  ///< empty: colour × energy alone
+    bool object_space =
+        false;  ///< nodes see the lamp as an object (Blender 4.5 and newer); false: only normals are in its space
+    float random = 0;  ///< [0,1), Object Info ▸ Random
+    GraphDesc graph;   ///< empty: colour × energy alone
 };
 
 enum class WorldSampling : std::uint8_t { none, automatic, manual };
@@ -176,6 +181,8 @@ enum class RadiusSchedule : std::uint8_t {
     memoryless,  ///< by the number of the pass alone (Knaus & Zwicker 2011)
     per_pixel,   ///< by the photons that each pixel has found (thesis 5.2–5.5)
 };
+/// Cycles' Fast GI: bounced light is replaced by what short rays see of the sky, or such light is added.
+enum class FastGi : std::uint8_t { off, replace, add };
 enum class PixelFilter : std::uint8_t { box, gaussian, blackman_harris };
 
 struct Settings {
@@ -194,6 +201,10 @@ struct Settings {
     float clamp_direct = 0, clamp_indirect = 0;  ///< 0: off
     bool reflective_caustics = true, refractive_caustics = true;
     float filter_glossy = 0;
+    FastGi fast_gi = FastGi::off;
+    int fast_gi_bounces = 1;      ///< replace: bounces that are traced in full, at least 1
+    float fast_gi_factor = 1;     ///< replace: of the world's light after them; add: of the white light that is added
+    float fast_gi_distance = 10;  ///< how far their rays go
     float caustic_roughness = 0.1f;  ///< lobes at or under it are class S; path tracing alone takes 0
     IndirectCaustics indirect_caustics = IndirectCaustics::path_tracing;
     std::int64_t photons = 0;  ///< emitted for each sample of the whole frame; 0: by the number of pixels and balance

@@ -56,6 +56,8 @@ private:
         }
         instance.visibility &= visible_all;
         repair(problems_, who, "random", instance.random, 0, 1, 0);
+        repair(problems_, who, "terminator_geometry", instance.terminator_geometry, 0, 1, 0);
+        repair(problems_, who, "terminator_shading", instance.terminator_shading, 0, 1, 0);
         for (float* value : {&instance.color[0], &instance.color[1], &instance.color[2], &instance.color[3],
                              &instance.dupli_generated.x, &instance.dupli_generated.y, &instance.dupli_generated.z,
                              &instance.dupli_uv[0], &instance.dupli_uv[1]}) {

@@ -60,6 +60,7 @@ bool check_light(LightDesc& light, const std::string& who, ProblemList& problems
     repair(problems, who, "angle", light.angle, 0, k_pi, 0);
     repair(problems, who, "spread", light.spread, 0, k_pi, k_pi);
     repair(problems, who, "max_bounces", light.max_bounces, 0, 1 << 20);
+    repair(problems, who, "random", light.random, 0, 1, 0);
     light.visibility &= visible_all;
     return true;
 }

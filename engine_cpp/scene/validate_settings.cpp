@@ -60,6 +60,9 @@ void repair_settings(Settings& s, ProblemList& problems) {
     repair(problems, who, "clamp_direct", s.clamp_direct, 0, k_large, 0);
     repair(problems, who, "clamp_indirect", s.clamp_indirect, 0, k_large, 0);
     repair(problems, who, "filter_glossy", s.filter_glossy, 0, 1000, 0);
+    repair(problems, who, "fast_gi_bounces", s.fast_gi_bounces, 1, 1024);
+    repair(problems, who, "fast_gi_factor", s.fast_gi_factor, 0, k_large, 1);
+    repair(problems, who, "fast_gi_distance", s.fast_gi_distance, 0, k_large, 10);
     repair(problems, who, "caustic_roughness", s.caustic_roughness, 0, 1, 0);
     repair(problems, who, "photon_radius", s.photon_radius, 0.01f, 1000, 1);
     repair(problems, who, "radius_shrink", s.radius_shrink, 0.01f, 1, 0.6666667f);

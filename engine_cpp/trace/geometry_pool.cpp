@@ -36,6 +36,7 @@ GeometryPool::GeometryPool(const scene::SceneDesc& desc, const PoolNames& names,
     copy_meshes(sources);
     copy_attributes(sources, names.attributes);
     make_instances(sources, default_material);
+    add_lamps(desc);
     collect_values(names.instance_values);
 }
 
@@ -105,14 +106,15 @@ void GeometryPool::copy_meshes(const Sources& sources) {
 
 void GeometryPool::copy_attributes(const Sources& sources, const std::vector<std::string>& names) {
     attribute_names_ = static_cast<int>(names.size());
-    attributes_.assign(std::max<std::size_t>(1, sources.size() * names.size()), {});
+    // The last mesh is that of lamps: it has nothing.
+    attributes_.assign(std::max<std::size_t>(1, (sources.size() + 1) * names.size()), {});
     floats_.assign(4, 0.0f);
     for (std::size_t m = 0; m < sources.size(); ++m) {
         if (!ranges_[m].used) continue;
         for (std::size_t a = 0; a < names.size(); ++a)
             add_attribute(*sources[m], names[a], attributes_[m * names.size() + a]);
     }
-    mesh_infos_.resize(std::max<std::size_t>(1, sources.size()));
+    mesh_infos_.assign(sources.size() + 1, {0, 0, {0, 0, 0}, {1, 1, 1}});
     for (std::size_t m = 0; m < sources.size(); ++m) {
         mesh_infos_[m] = {ranges_[m].first_triangle, ranges_[m].first_vertex, sources[m]->generated_min,
                           sources[m]->generated_size};
@@ -176,6 +178,8 @@ void GeometryPool::make_instances(const Sources& sources, int default_material) 
         first_material_.push_back(static_cast<std::int32_t>(slot_materials_.size()));
         holdout_.push_back(p.desc->holdout);
         visibility_.push_back(p.visibility);
+        terminator_geometry_.push_back(r.smooth ? p.desc->terminator_geometry : 0);
+        terminator_shading_.push_back(p.desc->terminator_shading);
         any_holdout_ = any_holdout_ || p.desc->holdout;
         const auto& slots = sources[m]->slots;
         const int slot_count = slots.empty() ? 1 : *std::max_element(slots.begin(), slots.end()) + 1;
@@ -189,6 +193,24 @@ void GeometryPool::make_instances(const Sources& sources, int default_material) 
                         &first_material_, &holdout_, &visibility_})
             v->push_back(0);
         slot_materials_.push_back(default_material);
+        terminator_geometry_.push_back(0);
+        terminator_shading_.push_back(0);
+    }
+}
+
+void GeometryPool::add_lamps(const scene::SceneDesc& desc) {
+    first_lamp_ = static_cast<std::int32_t>(infos_.size());
+    for (const scene::LightDesc& light : desc.lights) {
+        nodes::InstanceInfo info;
+        // Before Blender 4.5 lamps are no objects: of all transforms, only that of normals is theirs.
+        info.object_to_world = light.transform;
+        if (light.object_space) info.world_to_object = inverse(light.transform);
+        if (light.object_space) info.location = light.transform.translation();
+        info.mesh = static_cast<std::int32_t>(ranges_.size());
+        info.random = light.random;
+        std::fill(std::begin(info.color), std::end(info.color), 0.0f);
+        infos_.push_back(info);
+        mesh_.push_back(info.mesh);
     }
 }
 
@@ -239,9 +261,15 @@ void GeometryPool::fill(SceneView& view) const {
     g.instances = infos_.data();
     g.meshes = mesh_infos_.data();
     g.instance_values = {instance_values_.data(), instance_value_names_};
-    view.instances = {mesh_.data(),    first_triangle_.data(), first_vertex_.data(), smooth_.data(),
-                      baked_.data(),   flip_.data(),           slot_mask_.data(),    first_material_.data(),
-                      holdout_.data(), visibility_.data()};
+    view.instances = {mesh_.data(),    first_triangle_.data(), first_vertex_.data(),        smooth_.data(),
+                      baked_.data(),   flip_.data(),           slot_mask_.data(),           first_material_.data(),
+                      holdout_.data(), visibility_.data(),     terminator_geometry_.data(), terminator_shading_.data()};
+    const auto some = [](const std::vector<float>& v) {
+        return std::any_of(v.begin(), v.end(), [](float x) { return x > 0; });
+    };
+    view.lifts_shadow_rays = some(terminator_geometry_);
+    view.narrows_diffuse = some(terminator_shading_);
+    view.first_lamp_instance = first_lamp_;
     view.packed_normals = packed_normals_.data();
     view.slots = slots_.data();
     view.slot_materials = slot_materials_.data();

@@ -60,6 +60,7 @@ private:
     void add_attribute(const scene::MeshDesc& mesh, const std::string& name, nodes::AttributeRef& ref);
     void collect_values(const std::vector<std::string>& names);
     void make_instances(const Sources& sources, int default_material);
+    void add_lamps(const scene::SceneDesc& desc);
 
     PlacedList list_;
     std::vector<MeshRange> ranges_;
@@ -76,6 +77,8 @@ private:
         first_material_, holdout_, visibility_;
     std::vector<float> instance_values_;
     int attribute_names_ = 0, instance_value_names_ = 0;
+    std::vector<float> terminator_geometry_, terminator_shading_;
+    std::int32_t first_lamp_ = 0;
     bool any_holdout_ = false;
 };
 

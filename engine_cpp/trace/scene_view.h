@@ -45,7 +45,9 @@ struct InstanceArrays {
     const std::int32_t* slot_mask = nullptr;       ///< 0: one material for the whole mesh; ~0: look the slot up
     const std::int32_t* first_material = nullptr;  ///< into slot_materials
     const std::int32_t* holdout = nullptr;
-    const std::int32_t* visibility = nullptr;  ///< scene::Visibility bits
+    const std::int32_t* visibility = nullptr;    ///< scene::Visibility bits
+    const float* terminator_geometry = nullptr;  ///< as scene::InstanceDesc
+    const float* terminator_shading = nullptr;
 };
 
 struct CameraView {
@@ -58,6 +60,10 @@ struct SceneView {
     RTCSceneTy* embree = nullptr;
     bool has_transparent_shadows = false;
     bool any_holdout = false;
+    bool lifts_shadow_rays = false;  ///< some smooth mesh has terminator_geometry
+    bool narrows_diffuse = false;    ///< some instance has terminator_shading
+    std::int32_t first_lamp_instance =
+        0;  ///< lamps as instances that nodes see, by id in LightData; only `mesh` has a row for them
     nodes::GeometryTables geometry;
     InstanceArrays instances;
     const std::uint32_t* packed_normals = nullptr;  ///< 3 per triangle, octahedral 2×16 bits

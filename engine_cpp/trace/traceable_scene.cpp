@@ -216,7 +216,6 @@ void TraceableScene::Impl::build_geometry(const scene::SceneDesc& desc, const Bu
 std::vector<light::LampInput> TraceableScene::Impl::lamp_inputs(const scene::SceneDesc& desc) const {
     std::vector<light::LampInput> lamps;
     for (std::size_t i = 0; i < desc.lights.size(); ++i) {
-        if (desc.lights[i].portal) continue;
         light::LampInput lamp;
         lamp.desc = desc.lights[i];
         lamp.soft_falloff = desc.lights[i].soft_falloff;

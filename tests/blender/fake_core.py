@@ -33,7 +33,8 @@ _AFFINE = numbers_of(12)
 _COLOR = numbers_of(3)
 INSTANCE = {"name": TEXT, "mesh": WHOLE, "group": WHOLE, "transform": _AFFINE, "materials": "wholes",
             "visibility": WHOLE, "holdout": FLAG, "pass_index": WHOLE, "random": NUMBER, "color": numbers_of(4),
-            "dupli_generated": _COLOR, "dupli_uv": numbers_of(2), "values": "values"}
+            "dupli_generated": _COLOR, "dupli_uv": numbers_of(2), "values": "values",
+            "terminator_geometry": NUMBER, "terminator_shading": NUMBER}
 MATERIAL = {"name": TEXT, "graph": "graph", "viewport_color": _COLOR, "metallic": NUMBER, "roughness": NUMBER,
             "use_transparent_shadow": FLAG, "sample_emission": FLAG, "pass_index": WHOLE,
             "displacement_method": one_of("bump", "displacement", "both")}
@@ -42,7 +43,8 @@ LIGHT = {"name": TEXT, "kind": one_of("point", "spot", "sun", "area"), "transfor
          "shape": one_of("square", "rectangle", "disk", "ellipse"), "size_x": NUMBER, "size_y": NUMBER,
          "spread": NUMBER, "cast_shadow": FLAG, "use_mis": FLAG, "legacy_lamp": FLAG,
          "soft_falloff": FLAG, "normalize": FLAG,
-         "max_bounces": WHOLE, "visibility": WHOLE, "portal": FLAG, "graph": "graph"}
+         "max_bounces": WHOLE, "visibility": WHOLE, "portal": FLAG, "object_space": FLAG, "random": NUMBER,
+         "graph": "graph"}
 WORLD = {"name": TEXT, "graph": "graph", "color": _COLOR, "sampling": one_of("none", "automatic", "manual"),
          "map_resolution": WHOLE, "visibility": WHOLE, "max_bounces": WHOLE}
 CAMERA = {"name": TEXT, "kind": one_of("perspective", "orthographic"), "transform": _AFFINE,

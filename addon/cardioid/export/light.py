@@ -6,11 +6,14 @@ from __future__ import annotations
 from typing import Any
 
 from . import compat
-from .names import affine, object_visibility
+from .names import affine, hash_name, object_visibility, unit_random
 
 
-def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None) -> dict[str, Any]:
-    """Keywords of `Scene.add_light` for a lamp placed at `matrix`; `graph` is its node tree, if any."""
+def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None, random_id: int | None = None) -> dict[str, Any]:
+    """Keywords of `Scene.add_light` for a lamp placed at `matrix`; `graph` is its node tree, if any.
+
+    random_id: of the instance; None: the lamp is not instanced.
+    """
     light = obj.data
     strength = 2.0 ** getattr(light, "exposure", 0.0)
     color = list(light.color)
@@ -29,6 +32,8 @@ def describe(obj: Any, matrix: Any, graph: dict[str, Any] | None) -> dict[str, A
         "soft_falloff": bool(getattr(light, "use_soft_falloff", False)),
         "normalize": bool(getattr(light, "normalize", True)),
         "visibility": object_visibility(obj),
+        "object_space": compat.has("lamps_are_objects"),
+        "random": unit_random(hash_name(obj.name) if random_id is None else random_id),
     }
     if graph:
         desc["graph"] = graph

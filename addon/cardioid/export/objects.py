@@ -96,11 +96,13 @@ class Objects:
         if visibility == 0:
             return _Kind(-1, {})
         self._tell_unsupported(obj, owner)
+        offset, shading = compat.terminator(obj)
         read = self._materials.needs(obj)
         index = self._geometry(obj, source, read, geometry)
         return _Kind(index, {} if index < 0 else {
             "name": obj.name, "mesh": index, "materials": self._materials.indices(obj), "visibility": visibility,
-            "holdout": bool(holdout), "pass_index": obj.pass_index, "color": list(obj.color),
+            "holdout": bool(holdout), "terminator_geometry": offset,
+            "terminator_shading": shading, "pass_index": obj.pass_index, "color": list(obj.color),
             "random": names.unit_random(names.hash_name(obj.name))}, read)
 
     def _geometry(self, obj: Any, source: Any, read: needs.Needs, geometry: str) -> int:
@@ -129,7 +131,8 @@ class Objects:
         if compat.has_light_linking(obj):
             self._tell(f"Light “{obj.name}”: light linking is not supported, it reaches all objects")
         graph = self._materials.graph(obj.data, "Light")
-        self._scene.add_light(light.describe(obj, instance.matrix_world, graph))
+        random_id = instance.random_id if instance.is_instance else None
+        self._scene.add_light(light.describe(obj, instance.matrix_world, graph, random_id))
 
     def _tell_unsupported(self, obj: Any, owner: Any) -> None:
         if obj.is_shadow_catcher or owner.is_shadow_catcher:
