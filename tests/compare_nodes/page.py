@@ -43,6 +43,8 @@ def pictures(result: Result) -> str:
     if result.ours is None or result.reference is None:
         return ""
     low, high = np.quantile(np.nan_to_num(result.reference), (0.01, 0.99))
+    if high - low < 1e-6:  # one value everywhere
+        low, high = min(low, 0.0), max(high, 1.0)
     parts = [
         figure(scaled(result.ours, low, high), "Cardioid"),
         figure(scaled(result.reference, low, high), f"Cycles, {low:.3g} … {high:.3g}"),

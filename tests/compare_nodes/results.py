@@ -13,6 +13,9 @@ from batches import Rendered
 LEFT_OUT = "is left out"
 """How the add-on's warning begins when an object could not be handed to the engine."""
 
+COVERAGE = 0.4
+"""Less than this share of a tile to be seen: the case is wrong, and two black pictures would agree."""
+
 
 @dataclass
 class Result:
@@ -60,6 +63,11 @@ def result_of(host: str, name: str, told: dict, ours: Any, reference: Any) -> Re
     if a is None or b is None:
         result.problem = "not rendered"
         return result
+    seen = float((b[0, ..., 3] > 0.5).mean())
+    if seen < COVERAGE:
+        result.problem = f"the case shows nothing on {1 - seen:.0%} of its tile"
+        return result
+    a, b = a[..., :3], b[..., :3]
     result.ours, result.reference = a[0], b[0]
 
     def judge(picture: np.ndarray) -> pixels.Verdict:

@@ -214,7 +214,10 @@ def copies(name: str, kind: str, material: bpy.types.Material, column: int, row:
     """Sixteen small squares in the tile: instances on vertices (`instances`) or particles of different sizes."""
     low = 1.0 / 8
     data = bpy.data.meshes.new("copy")
-    data.from_pydata([(-low, -low, 0), (low, -low, 0), (low, low, 0), (-low, low, 0)], [], [(0, 1, 2, 3)])
+    corners = [(-low, -low), (low, -low), (low, low), (-low, low)]
+    # these particles have their Y axis up
+    shape = [(x, 0.0, y) if kind == "particles" else (x, y, 0.0) for x, y in corners]
+    data.from_pydata(shape, [], [(0, 1, 2, 3)])
     data.uv_layers.new(name="UVMap")
     data.materials.append(material)
     small = bpy.data.objects.new(name, data)
@@ -245,6 +248,7 @@ def _particles(parent: bpy.types.Object, small: bpy.types.Object) -> None:
     system.count, system.frame_start, system.frame_end, system.lifetime = 16, -9.0, 1.0, 40.0
     system.lifetime_random, system.emit_from, system.use_emit_random = 0.5, "VERT", False
     system.physics_type, system.render_type, system.instance_object = "NO", "OBJECT", small
+    system.use_rotations, system.rotation_mode = True, "GLOB_Z"
     system.particle_size, system.size_random = 1.0, 0.6
 
 

@@ -5,7 +5,7 @@
     python worker.py -- TASK.json          (with the bpy wheel)
 
 TASK.json: {"engine": "CYCLES" or "CARDIOID", "cases": [names], "samples": n, "moved": bool, "out": path}. `out` (.npz)
-gets `pixels` (renders, cases, h, w, 3), bottom row first: the picture and, if `moved`, more with the swept
+gets `pixels` (renders, cases, h, w, 4), bottom row first: the picture and, if `moved`, more with the swept
 values and the camera moved by MOVES. Beside it `out`.json: the cases in order, and those that this
 Blender cannot build with the reason.
 """
@@ -43,6 +43,7 @@ def settings(scene: bpy.types.Scene, engine: str) -> None:
     cycles.pixel_filter_type, cycles.filter_width = "BLACKMAN_HARRIS", stage.FILTER
     scene.view_settings.view_transform = "Standard"
     scene.render.use_persistent_data = False
+    scene.render.film_transparent = True  # alpha tells what there is to be seen
     scene.render.engine = engine
     if engine == "CARDIOID":
         scene.cardioid.integrator = "PT"
@@ -85,7 +86,7 @@ def build(names: list[str], folder: str) -> tuple[list[str], dict[str, str], dic
 
 
 def picture(folder: str, count: int) -> np.ndarray:
-    """Renders; (cases, h, w, 3)."""
+    """Renders; (cases, h, w, 4)."""
     scene = bpy.context.scene
     scene.render.filepath = os.path.join(folder, "picture.exr")
     bpy.ops.render.render(write_still=True)
@@ -96,8 +97,8 @@ def picture(folder: str, count: int) -> np.ndarray:
     image.pixels.foreach_get(pixels)
     bpy.data.images.remove(image)
     n = stage.PIXELS
-    tiles = pixels.reshape(height // n, n, width // n, n, -1)[..., :3].swapaxes(1, 2)
-    return tiles.reshape(-1, n, n, 3)[:count]
+    tiles = pixels.reshape(height // n, n, width // n, n, -1).swapaxes(1, 2)
+    return tiles.reshape(-1, n, n, 4)[:count]
 
 
 def run(task: dict, folder: str) -> None:
