@@ -94,6 +94,8 @@ Float mean_schlick_position(const bsdf::Lobe& lobe, int i, Vec3 wo) {
 Spectrum ggx_reflectance(const bsdf::Lobe& lobe, int i, Vec3 wo) {
     const Float cosine = saturate(dot(load3(lobe.normal, i), wo));
     const Spectrum smooth = reflectance(lobe, i, cosine);
+    // As in Cycles, which has no table for films either.
+    if (lobe.thin_film) return smooth;
     switch (lobe.fresnel) {
         case Fresnel::dielectric: {
             const Float eta = load(lobe.eta + i);

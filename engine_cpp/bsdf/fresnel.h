@@ -68,8 +68,14 @@ inline Spectrum fresnel_conductor(Float c, Spectrum n, Spectrum k) {
     return {fresnel_conductor(c, n.r, k.r), fresnel_conductor(c, n.g, k.g), fresnel_conductor(c, n.b, k.b)};
 }
 
-/// Reflectance of a lobe of reflection alone.
-inline Spectrum reflectance(const bsdf::Lobe& lobe, int i, Float c) {
+/// Films thinner than this (nm) are none.
+inline constexpr float k_least_film = 0.1f;
+
+/// Reflectance of a lobe with thin_film; lanes without a film have `plain` (thin_film.cpp).
+Spectrum film_reflectance(const bsdf::Lobe& lobe, int i, Float c, Spectrum plain);
+
+/// Reflectance of a lobe of reflection alone, films left out.
+inline Spectrum plain_reflectance(const bsdf::Lobe& lobe, int i, Float c) {
     using bsdf::Fresnel;
     switch (lobe.fresnel) {
         case Fresnel::none: return Spectrum(1.0f);
@@ -84,6 +90,11 @@ inline Spectrum reflectance(const bsdf::Lobe& lobe, int i, Float c) {
         case Fresnel::conductor: return fresnel_conductor(c, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
     }
     return Spectrum(0.0f);
+}
+
+inline Spectrum reflectance(const bsdf::Lobe& lobe, int i, Float c) {
+    const Spectrum plain = plain_reflectance(lobe, i, c);
+    return lobe.thin_film ? film_reflectance(lobe, i, c, plain) : plain;
 }
 
 struct InterfaceTerm {
@@ -102,9 +113,9 @@ inline InterfaceTerm interface_term(const bsdf::Lobe& lobe, int i, Float c) {
         return {Spectrum(0.0f), Spectrum(through), d.cos_t};
     }
     const bool remapped = lobe.fresnel == Fresnel::schlick || lobe.fresnel == Fresnel::principled_v1;
-    const Spectrum f =
-        remapped ? saturate(mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), schlick_position(d.reflect, eta)))
-                 : Spectrum(d.reflect);
+    Spectrum f = remapped ? saturate(mix(load_rgb(lobe.f0, i), load_rgb(lobe.f90, i), schlick_position(d.reflect, eta)))
+                          : Spectrum(d.reflect);
+    if (lobe.thin_film) f = film_reflectance(lobe, i, c, f);
     const Spectrum t =
         select(d.cos_t > Float(0.0f), one_minus(f) * load_rgb(lobe.tint_transmission, i), Spectrum(0.0f));
     return {f, t, d.cos_t};

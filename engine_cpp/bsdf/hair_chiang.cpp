@@ -103,6 +103,12 @@ private:
         attenuation[1] = through * sqr(1.0f - f);
         attenuation[2] = attenuation[1] * through * f;
         attenuation[3] = attenuation[2] * divide(through * f, max(one_minus(through * f), 1e-6f));
+        // Principled Hair's factors of R, TT and TRT (model Huang); what follows TRT goes with it.
+        const Spectrum factor = load_rgb(lobe.tint_transmission, i);
+        attenuation[0] = attenuation[0] * factor.r;
+        attenuation[1] = attenuation[1] * factor.g;
+        attenuation[2] = attenuation[2] * factor.b;
+        attenuation[3] = attenuation[3] * factor.b;
         Float total = 0.0f;
         for (int p = 0; p <= k_orders; ++p) total += share[p] = luminance(attenuation[p]);
         for (int p = 0; p <= k_orders; ++p) share[p] = share[p] / max(total, 1e-30f);

@@ -4,6 +4,7 @@
 #include "bsdf/tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <vector>
@@ -148,10 +149,52 @@ Table means(const Table& table, int n) {
     return t;
 }
 
+/// CIE 1931 colour matching functions by the fits of Wyman, Sloan & Shirley 2013; wavelength in nm.
+std::array<double, 3> color_matching(double wavelength) {
+    const auto lobe = [wavelength](double height, double at, double below, double above) {
+        return height * std::exp(-0.5 * sqr((wavelength - at) / (wavelength < at ? below : above)));
+    };
+    return {lobe(1.056, 599.8, 37.9, 31.0) + lobe(0.362, 442.0, 16.0, 26.7) + lobe(-0.065, 501.1, 20.4, 26.2),
+            lobe(0.821, 568.8, 46.9, 40.5) + lobe(0.286, 530.9, 16.3, 31.1),
+            lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8)};
+}
+
+/// See k_film_response; Rec.709.
+Table film_response() {
+    using cardioid::bsdf::k_film_size;
+    constexpr double to_rgb[3][3] = {
+        {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
+    Table t(6 * k_film_size);
+    double whole[3] = {};
+    for (int k = 0; k < k_film_size; ++k) {
+        const double d = k * static_cast<double>(cardioid::bsdf::k_film_reach) / (k_film_size - 1);
+        double xyz[6] = {};
+        for (double wavelength = 360.5; wavelength < 830; wavelength += 1) {
+            const std::array<double, 3> cmf = color_matching(wavelength);
+            const double angle = 2 * k_pi * d / wavelength;
+            for (std::size_t c = 0; c < 3; ++c) {
+                xyz[c] += cmf[c] * std::cos(angle);
+                xyz[3 + c] -= cmf[c] * std::sin(angle);
+            }
+        }
+        for (int row = 0; row < 6; ++row) {
+            const int c = row % 3, part = row - c;
+            const double v = to_rgb[c][0] * xyz[part] + to_rgb[c][1] * xyz[part + 1] + to_rgb[c][2] * xyz[part + 2];
+            if (k == 0 && part == 0) whole[c] = v;
+            t[static_cast<std::size_t>(row * k_film_size + k)] = v / whole[c];
+        }
+    }
+    return t;
+}
+
 void write(std::FILE* file, const char* name, const Table& table) {
     std::fprintf(file, "const float %s[%zu] = {", name, table.size());
     for (std::size_t k = 0; k < table.size(); ++k)
-        std::fprintf(file, "%s%.8ef", k == 0 ? "" : k % 8 == 0 ? ",\n" : ", ", std::max(table[k], 1e-30));
+        std::fprintf(file, "%s%.8ef",
+                     k == 0       ? ""
+                     : k % 8 == 0 ? ",\n"
+                                  : ", ",
+                     std::abs(table[k]) < 1e-30 ? 1e-30 : table[k]);
     std::fprintf(file, "};\n\n");
 }
 
@@ -180,6 +223,7 @@ int main(int argc, char** argv) {
     write(file, "k_schlick_power5", table2(k_glass_size, [](double alpha, double mu) {
               return schlick_albedo(alpha, mu, [](double c) { return std::pow(1 - c, 5); });
           }));
+    write(file, "k_film_response", film_response());
     std::fprintf(file, "}  // namespace cardioid::bsdf\n");
     return std::fclose(file) == 0 ? 0 : 1;
 }

@@ -25,4 +25,10 @@ extern const float k_glass_mean_albedo_inverse[k_glass_size * k_glass_size];
 extern const float k_schlick_dielectric[k_glass_size * k_glass_size * k_glass_size];
 extern const float k_schlick_power5[k_glass_size * k_glass_size];
 
+/// Light that interferes over an optical path difference of d: ∫ cmf(λ)·(cos, -sin)(2πd/λ) dλ for the working space's
+/// three channels, each 1 at d = 0; six rows (three real, three imaginary), spread evenly up to k_film_reach.
+inline constexpr int k_film_size = 512;
+inline constexpr float k_film_reach = 60000.0f / 6.28318530718f;  ///< nm, the last entry
+extern const float k_film_response[6 * k_film_size];
+
 }  // namespace cardioid::bsdf

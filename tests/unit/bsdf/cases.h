@@ -50,6 +50,28 @@ inline void add_facets(std::vector<Model>& out) {
     }
 }
 
+inline void add_films(std::vector<Model>& out) {
+    using bsdf::Fresnel;
+    using bsdf::LobeKind;
+    const auto add = [&](const std::string& name, bsdf::Lobe l, float thickness) {
+        l.thin_film = true;
+        fill(l.roughness, thickness);
+        fill(l.film_ior, 1.33f);
+        out.push_back(model_of("film " + name, l));
+    };
+    add("dielectric", lobe_of(LobeKind::ggx_reflection, 0.4f, Fresnel::dielectric, 1.5f), 400);
+    add("glass", lobe_of(LobeKind::ggx_glass, 0.4f, Fresnel::dielectric, 1.5f), 700);
+    add("glass inside", lobe_of(LobeKind::ggx_glass, 0.4f, Fresnel::dielectric, 1 / 1.5f), 300);
+    bsdf::Lobe metal = lobe_of(LobeKind::ggx_reflection, 0.4f, Fresnel::f82);
+    fill3(metal.f0, 0.9f, 0.6f, 0.3f);
+    fill3(metal.f90, 0.8f, 0.9f, 0.5f);
+    add("f82", metal, 500);
+    metal.fresnel = Fresnel::conductor;
+    fill3(metal.f0, 0.2f, 0.5f, 1.1f);
+    fill3(metal.f90, 3.9f, 2.4f, 2.3f);
+    add("conductor", metal, 350);
+}
+
 inline bsdf::Lobe chiang_lobe(float rough, float across, float h) {
     bsdf::Lobe l = lobe_of(bsdf::LobeKind::hair_chiang, 1.0f);
     fill(l.alpha_x, rough);
@@ -103,6 +125,7 @@ inline std::vector<Model> all_models() {
     }
     add_facets(out);
     add_toon_and_hair(out);
+    add_films(out);
     bsdf::Lobe anisotropic = lobe_of(LobeKind::ggx_reflection, 0.5f);
     fill(anisotropic.alpha_x, 0.5f);
     fill(anisotropic.alpha_y, 0.1f);

@@ -90,5 +90,48 @@ TEST(BendNormal, LiftsTheReflectionJustAboveTheSurface) {
     EXPECT_GT(bent, 30);
 }
 
+// Films ---------------------------------------------------------------------------------------------------
+
+bsdf::Lobe film_lobe(bsdf::Fresnel fresnel, float thickness, float film_ior, float eta) {
+    bsdf::Lobe l = lobe_of(bsdf::LobeKind::ggx_reflection, 0.3f, fresnel, eta);
+    l.thin_film = true;
+    fill(l.roughness, thickness);
+    fill(l.film_ior, film_ior);
+    return l;
+}
+
+/// Airy's formula integrated over the spectrum that the table was made from, in the mean over wavelengths of equal energy: the
+/// sum of reflectances without interference is what thick films come to.
+TEST(Film, ThickFilmsLoseTheirColour) {
+    for (const float c : {1.0f, 0.6f}) {
+        const Spectrum f = reflectance(film_lobe(bsdf::Fresnel::dielectric, 9000, 1.33f, 1.8f), 0, Float(c));
+        const DielectricTerm top = fresnel_dielectric(Float(c), Float(1.33f));
+        const Float a = top.reflect, b = fresnel_dielectric(top.cos_t, Float(1.8f / 1.33f)).reflect;
+        const float incoherent = (a + (1.0f - a) * (1.0f - a) * b / (1.0f - a * b))[0];
+        for (const Float x : {f.r, f.g, f.b}) EXPECT_NEAR(x[0], incoherent, 0.004f) << c;
+    }
+}
+
+TEST(Film, OfTheSubstratesIndexIsNone) {
+    for (const float c : {1.0f, 0.5f, 0.1f}) {
+        const Spectrum f = reflectance(film_lobe(bsdf::Fresnel::dielectric, 400, 1.5f, 1.5f), 0, Float(c));
+        const float bare = fresnel_dielectric(Float(c), Float(1.5f)).reflect[0];
+        for (const Float x : {f.r, f.g, f.b}) EXPECT_NEAR(x[0], bare, 1e-4f) << c;
+    }
+}
+
+TEST(Film, AQuarterWaveDarkensGreenGlass) {
+    // 550 nm / (4 · 1.25) on glass of 1.5625: no reflection at 550 nm.
+    const Spectrum f = reflectance(film_lobe(bsdf::Fresnel::dielectric, 110, 1.25f, 1.5625f), 0, Float(1.0f));
+    EXPECT_LT(f.g[0], 0.003f);
+    EXPECT_GT(f.b[0], f.g[0]);
+    EXPECT_LT(f.g[0], 0.1f * fresnel_dielectric(Float(1.0f), Float(1.5625f)).reflect[0]);
+}
+
+TEST(Film, ThinnerThanItsLimitIsNone) {
+    const Spectrum f = reflectance(film_lobe(bsdf::Fresnel::dielectric, 0.05f, 2.0f, 1.5f), 0, Float(0.7f));
+    EXPECT_EQ(f.r[0], fresnel_dielectric(Float(0.7f), Float(1.5f)).reflect[0]);
+}
+
 }  // namespace
 }  // namespace cardioid::test

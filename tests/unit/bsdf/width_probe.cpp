@@ -39,6 +39,8 @@ void fill(Inputs& in, int k) {
     l.preserve_energy = k % 2 == 1;
     l.distribution = static_cast<bsdf::Distribution>(bsdf::refracts(l.kind) ? k / 15 % 2 : k / 15 % 4);
     l.separable_masking = k / 15 % 2 == 1;
+    l.thin_film =
+        bsdf::is_microfacet(l.kind) && l.fresnel != bsdf::Fresnel::none && l.fresnel != bsdf::Fresnel::principled_v1;
     for (int n = 0; n < k_chunk; ++n) {
         const auto r = [&](int use) { return number(k, n, use); };
         for (int c = 0; c < 3; ++c) {
@@ -55,8 +57,13 @@ void fill(Inputs& in, int k) {
         l.alpha_y[n] = n % 2 == 0 ? l.alpha_x[n] : 0.05f + 0.95f * r(17);
         if (bsdf::is_hair(l.kind)) {
             // Narrow strands are steeper than rounding allows to compare.
+            l.roughness[n] = l.kind == bsdf::LobeKind::hair_chiang ? 0.5f + 0.5f * r(15) : 0.1f * r(15);
             l.alpha_x[n] = 0.4f + 0.6f * r(16);
             l.alpha_y[n] = 0.4f + 0.6f * r(17);
+        }
+        if (l.thin_film) {
+            l.roughness[n] = n % 3 == 0 ? 0.0f : 800.0f * r(15);
+            l.film_ior[n] = 1.1f + r(25);
         }
         l.eta[n] = n % 4 < 2 ? 1.1f + r(18) : 1 / (1.1f + r(18));
         unit(&l.tangent[0][n], &l.tangent[1][n], &l.tangent[2][n], r(19), r(20));
