@@ -242,6 +242,7 @@ struct alignas(64) Scratch {
     nodes::ShadingChunk shading;
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
+    nodes::RayService node_rays;  ///< of the scene that is traced
     PathInts order;  ///< paths sorted by material
     Subsurface walks, disks;
     SubsurfaceExit exits;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "path/node_rays.h"
 #include "path/tracer.h"
 
 #include <bit>
@@ -18,6 +19,7 @@ void fill_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int 
     const auto put = [&](Row(&rows)[3], Vec3 v) { store3(rows, 0, {spread(v.x), spread(v.y), spread(v.z)}); };
     s.n = W;
     s.geometry = &scene.geometry;
+    s.rays = nullptr;  // as in Cycles, lights and shadows see no rays of nodes
     s.material_pass_index = scene.materials[program].pass_index;
     put(s.position, at.position);
     put(s.normal_geometric, at.normal_geometric);
@@ -57,6 +59,8 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
     const path::HitState& hits = scratch.hits;
     s.n = n;
     s.geometry = &scene.geometry;
+    scratch.node_rays = {&scene, node_closest};
+    s.rays = info.sends_rays ? &scratch.node_rays : nullptr;
     s.material_pass_index = scene.materials[material].pass_index;
     for (int i = 0; i < n; i += W) {
         const Int ray = load(list + i);
@@ -86,6 +90,7 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
             store(s.barycentric_v + i, v);
             store(s.time + i, Float(0.0f));
         }
+        if (info.sends_rays) store(s.random_seed + i, node_seed(*this, ray));
         if (info.needs_light_path) {
             const Int depth = gather(rays.depth, ray);
             store(s.ray_depth + i, to_float(byte_of(depth, 0)));
