@@ -67,18 +67,19 @@ def is_library(scene: bpy.types.Scene) -> bool:
 
 
 def add_camera(scene: bpy.types.Scene) -> None:
-    """Looks down at all that is rendered."""
-    corners = []
-    for item in bpy.context.evaluated_depsgraph_get().object_instances:
+    """Looks down at all that is rendered, as near as it can."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    corners: list[float] = []
+    for item in depsgraph.object_instances:
         if item.object.type not in ("LIGHT", "CAMERA", "EMPTY"):
-            corners += [item.matrix_world @ Vector(c) for c in item.object.bound_box]
-    low = Vector([min(c[i] for c in corners) for i in range(3)])
-    high = Vector([max(c[i] for c in corners) for i in range(3)])
-    center, radius = (low + high) / 2, max((high - low).length / 2, 1e-3)
+            corners += [x for c in item.object.bound_box for x in item.matrix_world @ Vector(c)]
     data = bpy.data.cameras.new("added camera")
-    data.clip_start, data.clip_end, data.lens = radius * 1e-3, radius * 100, 50.0
-    place = center + Vector((0.55, -0.75, 0.4)).normalized() * radius / math.sin(math.radians(13))
-    scene.camera = common.aim(common.add(data, "added camera", place), center)
+    camera = scene.camera = common.add(data, "added camera", Vector((0.55, -0.75, 0.4)))
+    common.aim(camera, (0, 0, 0))
+    depsgraph.update()
+    camera.location, _ = camera.camera_fit_coords(depsgraph, corners)
+    distance = max((Vector(corners[i : i + 3]) - camera.location).length for i in range(0, len(corners), 3))
+    data.clip_start, data.clip_end = distance * 1e-4, distance * 2.0
 
 
 def balls(scene: bpy.types.Scene) -> list[str]:
