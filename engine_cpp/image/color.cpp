@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "image/color.h"
 
+#include "image/color_standard.h"
 #include "image/srgb.h"
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -18,10 +19,12 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace cardioid::image {
 
-class ColorProcessor {
+namespace {
+
+class ConfigProcessor : public ColorProcessor {
 public:
-    explicit ColorProcessor(OCIO::ConstCPUProcessorRcPtr cpu) : cpu_(std::move(cpu)) {}
-    void apply(float* rgba, std::size_t count) const {
+    explicit ConfigProcessor(OCIO::ConstCPUProcessorRcPtr cpu) : cpu_(std::move(cpu)) {}
+    void apply(float* rgba, std::size_t count) const override {
         OCIO::PackedImageDesc pixels(rgba, static_cast<long>(count), 1, 4);
         cpu_->apply(pixels);
     }
@@ -30,6 +33,8 @@ public:
 private:
     OCIO::ConstCPUProcessorRcPtr cpu_;
 };
+
+}  // namespace
 
 void ColorSpace::to_linear(float* rgba, std::size_t count) const {
     if (processor) processor->apply(rgba, count);
@@ -66,6 +71,7 @@ ColorSpace built_in(const std::string& name, bool is_float) {
     if (among(k_data, name)) return {Transfer::data, true, nullptr};
     if (among(k_srgb, name)) return {Transfer::srgb, true, nullptr};
     if (among(k_linear, name)) return {Transfer::none, true, nullptr};
+    if (auto processor = standard_space(name)) return {Transfer::convert, true, std::move(processor)};
     return {is_float ? Transfer::none : Transfer::srgb, false, nullptr};
 }
 
@@ -84,7 +90,7 @@ bool alike(float a, float b) {
 }
 
 /// none or srgb if the processor does just that, so that texels can stay as they are; otherwise convert.
-Transfer recognise(const ColorProcessor& processor) {
+Transfer recognise(const ConfigProcessor& processor) {
     bool linear = true, srgb = true;
     for (int i = 0; i < 256; ++i) {
         const float v = static_cast<float>(i) / 255;
@@ -109,7 +115,7 @@ Transfer recognise(const ColorProcessor& processor) {
 
 struct ColorSpaces::Impl {
     std::string path, problem;
-    bool loaded = false, checked = false, is_plain = false;
+    bool loaded = false, checked = false, is_plain = false, is_other = false;
     OCIO::ConstConfigRcPtr config;
     std::map<std::string, ColorSpace> found;
 
@@ -139,6 +145,7 @@ struct ColorSpaces::Impl {
                 const auto begin = line.find_first_not_of(" \t", at + 13), end = line.find_last_not_of(" \t\r");
                 if (begin == std::string::npos) break;
                 is_plain = among(k_linear, line.substr(begin, end - begin + 1));
+                is_other = !is_plain;
                 break;
             }
         }
@@ -154,7 +161,7 @@ struct ColorSpaces::Impl {
                 out = {Transfer::data, true, nullptr};
                 return true;
             }
-            auto processor = std::make_shared<ColorProcessor>(
+            auto processor = std::make_shared<ConfigProcessor>(
                 config->getProcessor(name.c_str(), OCIO::ROLE_SCENE_LINEAR)->getDefaultCPUProcessor());
             out = {recognise(*processor), true, nullptr};
             if (out.transfer == Transfer::convert) out.processor = std::move(processor);
@@ -172,13 +179,22 @@ const std::string& ColorSpaces::config_problem() const { return impl_->problem; 
 
 ColorSpace ColorSpaces::find(const std::string& name, bool is_float) {
     const ColorSpace standard = built_in(name, is_float);
-    if (standard.known && (standard.transfer == Transfer::data || impl_->path.empty() || impl_->plain()))
-        return standard;
+    const bool asks_nothing = standard.transfer == Transfer::data || impl_->path.empty();
+    if (standard.known && (asks_nothing || (standard.transfer != Transfer::convert && impl_->plain()))) return standard;
     if (!impl_->loaded) impl_->load();
-    if (!impl_->config) return standard;
+    if (!impl_->config) {
+        // Without its primaries nothing comes out in the working space that it asks for.
+        ColorSpace guess = standard;
+        guess.known = guess.known && !impl_->is_other;
+        return guess;
+    }
     auto [entry, fresh] = impl_->found.try_emplace(name);
     if (fresh && !impl_->from_config(name, entry->second)) entry->second.known = false;
-    return entry->second.known ? entry->second : standard;
+    if (entry->second.known) return entry->second;
+    ColorSpace guess = standard;
+    // A matrix to Rec.709 is not one to the working space.
+    guess.known = guess.known && (guess.transfer != Transfer::convert || impl_->plain());
+    return guess;
 }
 
 }  // namespace cardioid::image

@@ -44,6 +44,15 @@ OIIO::ImageSpec open_options() {
     return options;
 }
 
+/// Formats whose readers do not say it: Targa is straight unless it is marked, DDS and PSD always.
+bool has_straight_alpha(const OIIO::ImageSpec& spec, std::string_view format) {
+    if (spec.get_int_attribute("oiio:UnassociatedAlpha") != 0) return true;
+    if (spec.alpha_channel < 0) return false;
+    constexpr int premultiplied = 4;
+    if (format == "targa") return spec.get_int_attribute("targa:alpha_type", -1) != premultiplied;
+    return format == "dds" || format == "psd";
+}
+
 /// A name with the extension of the format that the bytes begin like, so that the right reader is tried first; else
 /// empty.
 std::string name_by_content(const std::vector<std::uint8_t>& bytes) {
@@ -64,6 +73,7 @@ std::string name_by_content(const std::vector<std::uint8_t>& bytes) {
                                          {"SDPX"sv, 0, "packed.dpx"},
                                          {"XPDS"sv, 0, "packed.dpx"},
                                          {"GIF8"sv, 0, "packed.gif"},
+                                         {"DDS "sv, 0, "packed.dds"},
                                          {"8BPS"sv, 0, "packed.psd"},
                                          {"jP  "sv, 4, "packed.jp2"},
                                          {"TRUEVISION"sv, std::string::npos, "packed.tga"}};
@@ -121,7 +131,7 @@ public:
         if (spec.depth > 1) throw SceneError("is a volume, not a picture");
         info_.width = spec.width, info_.height = spec.height, info_.channels = spec.nchannels;
         info_.storage = storage_for(spec);
-        info_.straight_alpha = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
+        info_.straight_alpha = has_straight_alpha(spec, in.input->format_name());
         info_.tiled = spec.tile_width > 0 && !in_memory_;
         left_ = spec.x, top_ = spec.y;
         tile_height_ = spec.tile_width > 0 ? spec.tile_height : 0;

@@ -52,7 +52,9 @@ Picture::Picture(const scene::ImageDesc& image, std::string label, std::unique_p
     conversion_.ignore_alpha = image.alpha_mode == AlphaMode::none;
     conversion_.associated = has_alpha_ && !separate && !info.straight_alpha;
     choose_format(texture_, conversion_);
-    texture_.associate = has_alpha_ && !separate && info.straight_alpha;
+    // Cycles forgets to multiply the colours of grey files by their alpha, and then divides by it.
+    const bool forgotten = image.source == scene::ImageSource::file && info.channels != 4;
+    texture_.associate = has_alpha_ && !separate && info.straight_alpha && !forgotten;
     texture_.may_divide = has_alpha_ && !separate;
     texture_.resize(info.width, info.height);
 }
