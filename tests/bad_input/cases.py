@@ -10,7 +10,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 import cases_caustics  # noqa: F401  (registers its cases)
+import cases_images  # noqa: F401
 import cases_materials  # noqa: F401
+import cases_nodes  # noqa: F401
 import cases_objects  # noqa: F401
 import scene_kit
 

@@ -118,6 +118,9 @@ class GraphWalk:
         if node.mute:
             inner = next((i for i in node.internal_links if i.to_socket == output), None)
             return (inner.from_socket, place) if inner else None
+        if node.bl_idname == "NodeUndefined":
+            self._warn(f"{self._owner}: node “{node.name}” is of a type that this Blender does not know, it is ignored")
+            return None
         if node.type in ("GROUP", "CUSTOM GROUP"):
             return self._into_group(node, output, place)
         if node.type == "GROUP_INPUT":

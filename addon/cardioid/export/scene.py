@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,9 +13,12 @@ import bpy
 
 from . import camera, colors, values, world
 from .image import Images
+from .image_files import absolute
 from .material import Materials
 from .objects import Objects
 from .options import Exported, ExportOptions
+
+_NAMED = 5  # things that a message lists
 
 
 def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptions) -> Exported:
@@ -35,10 +39,22 @@ def build_scene(core: Any, depsgraph: Any, view_layer: Any, options: ExportOptio
         with _timed(timings, "world"):
             _world(target, world.current(source, layer) if layer.use_sky else None, materials)
         with _timed(timings, "objects"):
+            warnings += _missing_libraries()
             Objects(target, depsgraph, layer, materials, options, viewer.matrix_world.translation, warnings).export()
         target.set_settings(_settings(options, images))
     exported.warnings[:] = dict.fromkeys(warnings)
     return exported
+
+
+def _missing_libraries() -> list[str]:
+    """One message for each library whose file is gone, with what was linked from it."""
+    found = []
+    for library in bpy.data.libraries:
+        path = absolute(library.filepath, library.parent)
+        if not library.packed_file and not os.path.exists(path):
+            lost = ", ".join(f"“{data.name}”" for data in library.users_id[:_NAMED])
+            found.append(f"Library “{path}” is missing: what was linked from it ({lost}) is left out")
+    return found
 
 
 def _settings(options: ExportOptions, images: Images) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import addon_utils
 import bpy
 import pytest
 
-from .kit import add, export
+from .kit import add, export, quad
 
 _FOLDER = Path(__file__).resolve().parents[4] / "shared" / "blends"
 _FILES = sorted(_FOLDER.glob("**/*.blend"))
@@ -32,3 +32,21 @@ def test_file_exports(path):
           f"{exported.warnings}")
     assert scene.meshes and scene.instances
     assert not [w for w in exported.warnings if "left out:" in w or "cannot be read" in w]
+
+
+def test_a_library_that_is_gone_is_named(scene, tmp_path):
+    quad_object = add(quad("Linked"))
+    library = tmp_path / "lib.blend"
+    bpy.data.libraries.write(str(library), {quad_object})
+    bpy.data.objects.remove(quad_object)
+    add(quad("Here"))
+    with bpy.data.libraries.load(str(library), link=True) as (source, target):
+        target.objects = list(source.objects)
+    scene.collection.objects.link(target.objects[0])
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "user.blend"))
+    assert not export().warnings
+    library.unlink()
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "user.blend"))
+    exported = export()
+    assert len(exported.warnings) == 1 and "lib.blend" in exported.warnings[0] and "Linked" in exported.warnings[0]
+    assert [i["name"] for i in exported.scene.instances] == ["Here"]

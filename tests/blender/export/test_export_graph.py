@@ -302,3 +302,20 @@ def test_a_long_chain_does_not_overflow(tree):
         previous = gamma.outputs[0]
     tree.links.new(previous, tree.nodes["D"].inputs["Color"])
     assert len(graph()["nodes"]) == 702
+
+
+class NodeOfTomorrow(bpy.types.ShaderNodeCustomGroup):
+    bl_idname = "ShaderNodeOfTomorrow"
+    bl_label = "Tomorrow"
+
+
+def test_a_node_of_an_unknown_type_is_named_and_its_link_ignored(tree):
+    bpy.utils.register_class(NodeOfTomorrow)
+    tree.nodes["D"].inputs["Color"].default_value = (0.25, 0.5, 0.75, 1)
+    new = node(tree, "ShaderNodeOfTomorrow", "Tomorrow", node_tree=group_tree())
+    tree.links.new(new.outputs[0], tree.nodes["D"].inputs["Color"])
+    bpy.utils.unregister_class(NodeOfTomorrow)
+    exported = export()
+    found = graph(exported)["nodes"]
+    assert [n["name"] for n in found] == ["D"] and found[0]["inputs"]["Color"] == [0.25, 0.5, 0.75, 1]
+    assert any("Tomorrow" in w and "Material" in w for w in exported.warnings)
