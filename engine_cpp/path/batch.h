@@ -6,6 +6,7 @@
 #include "math/types.h"
 #include "nodes/run.h"
 #include "nodes/shading.h"
+#include "path/media_queue.h"
 #include "path/partition.h"
 #include "path/subsurface_queue.h"
 #include "photon/photon.h"
@@ -45,7 +46,9 @@ struct alignas(64) RayState {
     PathInts path;     ///< index in the batch
     PathInts flags;    ///< nodes::RayFlag | state << k_state_shift | bits below; photons: PhotonState
     PathInts depth;    ///< bounces: total | diffuse << 8 | glossy << 16 | transmission << 24
-    PathInts transparent;  ///< transparent surfaces passed
+    PathInts transparent;  ///< transparent surfaces passed | bounds of media passed << 16 | scatterings in media << 24
+    /// Media that the ray is in (path/media.h); with SceneView::has_volumes only.
+    PathInts media_instance[k_media], media_material[k_media];
 };
 inline constexpr int k_state_shift = 8;
 /// Camera paths: scatterings since x_d, x_d included, at most k_layers; 0 before it.
@@ -60,7 +63,7 @@ inline constexpr int k_visibility_shift = 16;
 struct alignas(64) HitState {
     PathFloats t, u, v, ng[3];
     PathInts triangle, instance;
-    PathInts material;  ///< SceneView::material_count: missed
+    PathInts material;  ///< SceneView::material_count: missed; -1: the ray ended in a medium before
 };
 
 /// Vertices of one material at one bounce: the record from which direct light is evaluated once paths are built.
@@ -71,6 +74,9 @@ struct alignas(64) VertexChunk {
     bool all_sides = false;      ///< light from below the smooth normal's horizon counts: transmission, bump
     bsdf::Lobe* lobe = nullptr;  ///< `lobes` of them
     Row* pick = nullptr;         ///< probability of each lobe, `lobes` rows
+    MediaRecord* media = nullptr;    ///< around the vertices; with SceneView::has_volumes only
+    MediumRecord* medium = nullptr;  ///< the vertices are in a medium: no lobes, no normals
+    bool boundary = false;           ///< the surface is nothing but the bounds of a medium
     Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;
     Row gather;  ///< 1 / probability of the D lobes where the path took one for the first time (x_d), otherwise 0
     Row radius;  ///< of the gather
@@ -82,6 +88,7 @@ struct alignas(64) VertexChunk {
 
 using Subsurface = SubsurfaceQueue<k_padded>;
 using SubsurfaceExit = SubsurfaceExits<k_padded>;
+using Scatterings = ScatterQueue<k_padded>;
 
 /// Shadow rays that wait for full packets.
 struct alignas(64) ShadowQueue {
@@ -90,6 +97,7 @@ struct alignas(64) ShadowQueue {
     PathFloats origin[3], direction[3], t_max, radiance[3];
     PathFloats incident[3];  ///< I, where layers are wanted
     PathInts path, path_class, layer;
+    PathInts media_instance[k_media], media_material[k_media];  ///< with SceneView::has_volumes only
 };
 
 /// Of scene-linear Rec.709.
@@ -246,6 +254,8 @@ struct alignas(64) Scratch {
     PathInts order;  ///< paths sorted by material
     Subsurface walks, disks;
     SubsurfaceExit exits;
+    Scatterings scatterings;
+    nodes::VolumeOutput medium;
     GatherLists gather;
     PathFloats demodulation[3];         ///< by path: I over R of what arrives at x_d along the sampled direction
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them

@@ -3,6 +3,7 @@
 // bounces fill whole packets.
 #include "path/bsdf_choice.h"
 #include "path/emitter_point.h"
+#include "path/media.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -43,6 +44,24 @@ BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3
     return sum;
 }
 
+/// The phase function of a vertex in a medium.
+BsdfEval eval_phases(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, const Int* visibility, Mask lanes) {
+    BsdfEval sum;
+    sum.pdf_d = eval_medium(*chunk.medium, i, wo, wi, lanes);
+    sum.d = Spectrum(sum.pdf_d);
+    if (visibility) sum.d = select((*visibility & Int(scene::visible_volume)) != Int(0), sum.d, Spectrum(0.0f));
+    return sum;
+}
+
+/// Media that a ray from a vertex toward wi starts in.
+MediaLanes media_toward(const path::VertexChunk& chunk, int i, Vec3 wi, Vec3 ng, Mask lanes) {
+    MediaLanes media = load_media(*chunk.media, i);
+    if (chunk.media->surface_material >= 0)
+        cross_surface(media, load(chunk.media->surface_instance + i), Int(chunk.media->surface_material),
+                      load(chunk.media->backfacing + i) != Int(0), lanes & (dot(wi, ng) < Float(0.0f)));
+    return media;
+}
+
 Mask not_black(Spectrum c) { return (c.r != Float(0.0f)) | (c.g != Float(0.0f)) | (c.b != Float(0.0f)); }
 
 }  // namespace
@@ -63,7 +82,8 @@ void Tracer::add_direct_light() {
 
 void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Spectrum throughput = load_rgb(chunk.throughput, i);
-    const Int state = state_of(load(chunk.flags + i)), after_d = step_state(state, mask_of(false));
+    const Int state = state_of(load(chunk.flags + i));
+    const Int after_d = chunk.medium ? state_in_medium(state) : step_state(state, mask_of(false));
     Mask active = first_lanes(chunk.n - i) & not_black(throughput);
     const bool all_classes = request.partition.camera == path::k_all_classes;
     const Mask before_d = state == Int(static_cast<int>(path::State::specular));
@@ -86,7 +106,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
 
     if (scene.lights_are_limited) lit &= byte_of(depth, 0) <= light.max_bounces;
     const Int* visibility = scene.lights_are_limited ? &light.visibility : nullptr;
-    const BsdfEval f = eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings, visibility);
+    const BsdfEval f = chunk.medium ? eval_phases(chunk, i, wo, light.wi, visibility, lit)
+                                    : eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings, visibility);
     lit &= not_black(f.d) | not_black(f.s);
     if (none(lit)) return;
     Spectrum radiance = light.radiance;
@@ -127,7 +148,10 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     path::ShadowQueue& q = scratch.shadows;
     const bool layers = request.layers;
     const Int since_d = scatterings_since_d(load(chunk.flags + i));
-    const Spectrum incident = radiance * (abs(dot(n, light.wi)) / max(light.pdf, 1e-37f));
+    const Float cosine = chunk.medium ? Float(1.0f) : abs(dot(n, light.wi));
+    const Spectrum incident = radiance * (cosine / max(light.pdf, 1e-37f));
+    MediaLanes media;
+    if (scene.has_volumes) media = media_toward(chunk, i, light.wi, ng, lit);
     const auto queue = [&](Spectrum f_cos, Float pdf, Int after, bool d_lobes, Mask m) {
         const Float weight = select(light.delta, Float(1.0f), power_heuristic(light.pdf, pdf));
         const Spectrum whole = arriving * f_cos * weight;
@@ -138,6 +162,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
         if (layers && d_lobes) {
             found.incident = select(since_d == Int(0), incident * (weight * kept), demodulated(path, c));
             found.layer = min(since_d, Int(path::k_layers - 1));
+            // Light of media before x_d is not filtered.
+            if (chunk.medium) found.layer = select(since_d == Int(0), Int(k_no_layer), found.layer);
         }
         const Mask shadowed = m & light.casts_shadow;
         const int at_n = q.n;
@@ -156,6 +182,12 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
             append(q.incident[1], at_n, found.incident.g, shadowed);
             append(q.incident[2], at_n, found.incident.b, shadowed);
             compress_store(q.layer + at_n, found.layer, shadowed);
+        }
+        if (scene.has_volumes) {
+            for (int k = 0; k < path::k_media; ++k) {
+                compress_store(q.media_instance[k] + at_n, media.instance[k], shadowed);
+                compress_store(q.media_material[k] + at_n, media.material[k], shadowed);
+            }
         }
         compress_store(q.path + at_n, path, shadowed);
         q.n += compress_store(q.path_class + at_n, after, shadowed);
@@ -188,8 +220,13 @@ void Tracer::flush_shadows() {
             light.incident = {load(q.incident[0] + i), load(q.incident[1] + i), load(q.incident[2] + i)};
             light.layer = load(q.layer + i);
         }
-        if (scene.has_transparent_shadows && any(visible)) {
-            const Spectrum passed = through_transparent(ray, visible);
+        if ((scene.has_transparent_shadows || scene.has_volumes) && any(visible)) {
+            MediaLanes media;
+            for (int k = 0; scene.has_volumes && k < path::k_media; ++k) {
+                media.instance[k] = load(q.media_instance[k] + i);
+                media.material[k] = load(q.media_material[k] + i);
+            }
+            const Spectrum passed = through_transparent(ray, visible, scene.has_volumes ? &media : nullptr);
             light.radiance *= passed;
             light.incident *= passed;
         }
@@ -198,13 +235,23 @@ void Tracer::flush_shadows() {
     q.n = 0;
 }
 
-Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible) {
+Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible, MediaLanes* media) {
     Spectrum passed(1.0f);
+    const Int number = hash(bits_of(ray.d.x), bits_of(ray.o.x));
+    Float begin = ray.t_min;
+    Int passed_surfaces(0);
     ray.mask = Int(trace::mask_shadow_transparent);
     Mask active = visible;
     // One more than the limit: the surface beyond it blocks, as in Cycles.
-    for (int layer = 0; layer <= scene.settings.max_transparent_bounces; ++layer) {
+    const int most = scene.settings.max_transparent_bounces;
+    for (int layer = 0; layer <= most + (media ? k_most_bounds : 0); ++layer) {
         const HitLanes h = intersect(scene.embree, ray, active, false);
+        if (media) {
+            const Float end = select(h.hit, h.t, ray.t_max);
+            const Spectrum rest = transmittance(*this, *media, ray.o, ray.d, begin, end, number, active);
+            passed = select(active, passed * rest, passed);
+            begin = end;
+        }
         active &= h.hit;
         if (none(active)) return passed;
         scratch.counters.shadow_rays += static_cast<std::uint64_t>(count(active));
@@ -225,7 +272,14 @@ Spectrum Tracer::through_transparent(RayLanes ray, Mask& visible) {
         const Spectrum t =
             shade_points(*this, nodes::Purpose::transparency, material_of(scene, instance, triangle), point, active);
         passed = select(active, passed * t, passed);
-        const Mask black = active & ~not_black(passed);
+        Mask black = active & ~not_black(passed);
+        if (media) {
+            const Int material = select(active, material_of(scene, instance, triangle), Int(0));
+            const Mask bounds = has_medium(scene, material, active);
+            cross_surface(*media, instance, material, normals.backfacing, bounds);
+            passed_surfaces += select(only_bounds(scene, material, bounds), Int(0), Int(1));
+            black |= active & (passed_surfaces > Int(most));
+        }
         visible &= ~black;
         active &= ~black;
         ray.t_min = h.t + offset_step(point.position, h.t);

@@ -2,6 +2,7 @@
 // Light that rays found by themselves: emissive surfaces, lamps on the way, the world. MIS against next-event estimation.
 #include "light/emit.h"
 #include "path/emitter_point.h"
+#include "path/media.h"
 
 #include <bit>
 
@@ -117,6 +118,9 @@ void Tracer::add_lamp_hits() {
                 place_on_lamp(scene, Int(scene.lights->hittable[which]), at, hit);
                 radiance *= shade_points(*this, nodes::Purpose::emission, Int(h.program), at, hit);
             }
+            if (scene.has_volumes)
+                radiance *= transmittance(*this, load_media(rays, min(ray, Int(rays.n - 1))), from.p, d, t_min, h.t,
+                                          bits_of(d.x), hit);
             Float weight = hit_weight(pdf, h.pdf);
             Float share = 1.0f;
             const Mask shared = shares_with_photons(ray, hit);

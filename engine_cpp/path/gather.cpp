@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Photons around x_d, the first vertex of a camera path where a D lobe was chosen (spec 2, gathering).
 #include "path/bsdf_choice.h"
+#include "path/media.h"
 #include "path/photon_fields.h"
 #include "photon/query.h"
 
@@ -127,6 +128,8 @@ void Tracer::add_photons(const path::VertexChunk& chunk, int i, Spectrum (&sum)[
         const Int index = select(lanes, load(lists.photon[at]), Int(0));
         const PhotonLanes q = photon_lanes(pass.map.photons, index);
         lanes &= camera_bounces + byte_of(q.depth, 0) <= Int(scene.settings.max_bounces);
+        if (chunk.media)
+            lanes &= load(chunk.media->scatterings + i) + q.in_media <= Int(most_scatterings(scene.settings));
         const Float turned = dot(q.normal, ng);
         lanes &= abs(turned) > Float(k_least_cosine);
         // A photon behind the surface must not shine through because its own facet is tilted.

@@ -37,9 +37,14 @@ void Walk::sort_by_material() {
     for (int b = 0; b <= bins; ++b) end[b] = 0;
     const int n = now->n;
     const std::int32_t* material = scratch.hits.material;
-    for (int i = 0; i < n; ++i) ++end[material[i] + 1];
+    // Rays that ended in a medium are at no surface.
+    for (int i = 0; i < n; ++i) {
+        if (material[i] >= 0) ++end[material[i] + 1];
+    }
     for (int b = 1; b <= bins; ++b) end[b] += end[b - 1];
-    for (int i = 0; i < n; ++i) scratch.order[end[material[i]]++] = i;
+    for (int i = 0; i < n; ++i) {
+        if (material[i] >= 0) scratch.order[end[material[i]]++] = i;
+    }
 }
 
 }  // namespace cardioid::CD_ISA_NS

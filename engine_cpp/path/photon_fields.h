@@ -13,10 +13,11 @@ struct PhotonLanes {
     Spectrum flux;
     Float density;
     Int depth, path_class, visibility;  ///< visibility: scene::Visibility bits of what it came from
+    Int in_media;                       ///< scatterings in media
 };
 
-/// Photon::path_class also holds what the photon's last segment is visible to.
-inline constexpr int k_photon_visibility_shift = 8;
+/// Photon::path_class also holds what the photon's last segment is visible to, and how often it was scattered in media.
+inline constexpr int k_photon_visibility_shift = 8, k_photon_media_shift = 16;
 
 inline PhotonLanes photon_lanes(const photon::Photon* photons, Int index) {
     const float* base = reinterpret_cast<const float*>(photons);
@@ -30,7 +31,8 @@ inline PhotonLanes photon_lanes(const photon::Photon* photons, Int index) {
     q.density = gather(base + 9, at);
     const Int packed = gather(numbers + 11, at);
     q.path_class = packed & Int((1 << k_photon_visibility_shift) - 1);
-    q.visibility = packed >> k_photon_visibility_shift;
+    q.visibility = (packed >> k_photon_visibility_shift) & Int(0xff);
+    q.in_media = packed >> k_photon_media_shift;
     return q;
 }
 

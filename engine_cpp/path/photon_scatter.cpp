@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "path/media.h"
 #include "path/photon_fields.h"
 #include "path/photons.h"
 
 namespace cardioid::CD_ISA_NS {
 
 namespace {
-
-/// path::step over lanes, from the light.
-Int step_photon(Int state, Mask specular) {
-    Int after = state;
-    for (int s = 0; s < path::k_photon_states; ++s) {
-        const auto from = static_cast<path::PhotonState>(s);
-        const Int on = select(specular, Int(static_cast<int>(path::step(from, true))),
-                              Int(static_cast<int>(path::step(from, false))));
-        after = select(state == Int(s), on, after);
-    }
-    return after;
-}
 
 Int class_to_store(Int state) {
     Int c(0);
@@ -25,14 +14,6 @@ Int class_to_store(Int state) {
         c = select(state == Int(s), Int(static_cast<int>(path_class)), c);
     }
     return c;
-}
-
-Mask may_be_stored(Int state, path::ClassSet classes) {
-    Mask m = mask_of(false);
-    for (int s = 0; s < path::k_photon_states; ++s) {
-        if ((path::reachable(static_cast<path::PhotonState>(s)) & classes) != 0) m |= state == Int(s);
-    }
-    return m;
 }
 
 /// Octahedral 2 × 16 bits, as trace/octahedral.h.
@@ -97,7 +78,9 @@ void PhotonWalk::keep(Int ray, int i, Int path_class, Mask lanes) {
         q.density = rays.merge[r];
         q.source = request.first + static_cast<std::uint32_t>(rays.path[r]);
         const auto seen_by = static_cast<std::uint32_t>(rays.flags[r]) >> path::k_visibility_shift & 0xffu;
-        q.path_class = static_cast<std::uint32_t>(path_class[k]) | seen_by << k_photon_visibility_shift;
+        const auto in_media = static_cast<std::uint32_t>(rays.transparent[r]) >> 24;
+        q.path_class = static_cast<std::uint32_t>(path_class[k]) | seen_by << k_photon_visibility_shift |
+                       in_media << k_photon_media_shift;
     }
 }
 
@@ -118,6 +101,8 @@ void PhotonWalk::shade(int material, const std::int32_t* list, int n) {
     chunk->lobe = lobe;
     chunk->pick = pick;
     chunk->own_normals = m.info.own_normals;
+    chunk->boundary = is_boundary(m);
+    surface_medium = m.volume ? material : -1;
     // Camera paths take subsurface scattering after a diffuse bounce for diffuse; photons always do.
     if (m.info.has_subsurface) add_twins(*chunk, list, true);
     for (int c = 0; c < 3; ++c) {
@@ -151,7 +136,7 @@ void PhotonWalk::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
 
         const Spectrum transparency = load_rgb(scratch.surface.transparency, i);
         const Float pick_through = choose_by_albedo(chunk, i, wo, transparency);
-        const Int event = byte_of(depth, 0) + transparent;
+        const Int event = event_of(depth, transparent);
         const Int seed = cardioid::CD_ISA_NS::gather(scratch.pixel_seed, path),
                   index = cardioid::CD_ISA_NS::gather(scratch.sample_index, path);
         const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));
@@ -181,7 +166,9 @@ void PhotonWalk::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         scratch.counters.photons_dropped += static_cast<std::uint64_t>(count(c.valid & ~sane));
         c.valid &= sane;
 
-        const Mask passes = lanes & c.through & (transparent < Int(settings.max_transparent_bounces));
+        const Mask passes = lanes & c.through &
+                            (chunk.boundary ? bounds_passed(transparent) < Int(k_most_bounds)
+                                            : surfaces_passed(transparent) < Int(settings.max_transparent_bounces));
         const Spectrum passed = flux * transparency * (1.0f / max(pick_through, 1e-37f));
         const Mask go = c.valid | passes;
         if (none(go)) continue;
@@ -200,7 +187,14 @@ void PhotonWalk::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
                          Int(nodes::ray_diffuse | nodes::ray_reflection) | (next_state << path::k_state_shift) |
                              (own << path::k_visibility_shift));
         r.depth = select(passes, depth, next_depth);
-        r.transparent = transparent + select(passes, Int(1), Int(0));
+        r.transparent = transparent + select(passes, Int(chunk.boundary ? 1 << 16 : 1), Int(0));
+        if (scene.has_volumes) {
+            MediaLanes media = load_media(rays, ray);
+            if (surface_medium >= 0)
+                cross_surface(media, load(s.instance + i), Int(surface_medium), load(s.backfacing + i) > Float(0.5f),
+                              passes | (c.valid & c.transmitted));
+            append_media(*next, media, go);
+        }
         append_ray(*next, r, go);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "light/emit.h"
 #include "path/emitter_point.h"
+#include "path/media.h"
 #include "path/photons.h"
 #include "photon/guide.h"
 
@@ -82,9 +83,27 @@ void PhotonWalk::start() {
         // A lamp that ends early: its photons start with bounces behind them.
         ray.depth = max(Int(scene.settings.max_bounces) - r.max_bounces, Int(0));
         ray.transparent = Int(0);
+        if (scene.has_volumes) {
+            const MediaLanes media = media_around(scene, ray.origin, go);
+            stop_infinite(ray.throughput, r, go);
+            append_media(rays, media, go);
+        }
         append(scratch.hits.t, rays.n, r.t_max, go);
         append_ray(rays, ray, go);
     }
+}
+
+void PhotonWalk::stop_infinite(Spectrum& flux, const PhotonRay& r, Mask lanes) {
+    const Mask far = lanes & r.infinite;
+    if (!scene.materials[scene.world_program].volume || none(far)) return;
+    ShadedPoint at;
+    at.position = r.origin;
+    at.normal_geometric = at.normal = at.wo = -r.direction;
+    const MediumLanes world = medium_at(*this, no_media(), at, 0.5f, far);
+    const auto stop = [&](Float& f, Float extinction) { f = select(far & (extinction > Float(0.0f)), Float(0.0f), f); };
+    stop(flux.r, world.extinction.r);
+    stop(flux.g, world.extinction.g);
+    stop(flux.b, world.extinction.b);
 }
 
 void PhotonWalk::drop_early_hits() {

@@ -97,7 +97,7 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
             store(s.diffuse_depth + i, to_float(byte_of(depth, 1)));
             store(s.glossy_depth + i, to_float(byte_of(depth, 2)));
             store(s.transmission_depth + i, to_float(byte_of(depth, 3)));
-            store(s.transparent_depth + i, to_float(gather(rays.transparent, ray)));
+            store(s.transparent_depth + i, to_float(surfaces_passed(gather(rays.transparent, ray))));
         }
     }
 }
@@ -117,6 +117,15 @@ Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const Sha
         result = select(here, load_rgb(emission ? out.emission : out.transparency, 0), result);
     }
     return result;
+}
+
+const nodes::VolumeOutput& volume_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int first) {
+    fill_points(walk, program, at, here, first);
+    nodes::SurfaceOutput& out = walk.scratch.surface;
+    out.volume = &walk.scratch.medium;
+    run_program(*walk.scene.materials[program].volume, walk.scratch.shading, out, walk.scratch.registers);
+    out.volume = nullptr;
+    return walk.scratch.medium;
 }
 
 }  // namespace cardioid::CD_ISA_NS

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where paths go on from the vertices of a chunk.
 #include "path/bsdf_choice.h"
+#include "path/media.h"
 #include "trace/curvature.h"
 
 namespace cardioid::CD_ISA_NS {
@@ -100,7 +101,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         store(chunk.path + i, path);
         store(chunk.flags + i, flags);
         store(chunk.depth + i, depth);
-        const Int event = byte_of(depth, 0) + transparent;
+        const Int event = event_of(depth, transparent);
         store(chunk.event + i, event);
 
         const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
@@ -108,11 +109,20 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
         Choice c = sample_bsdf(chunk, pick_through, i, wo, ng, u, chance.y, settings, Transport::radiance, alive);
         c.valid &= scatters & (c.pdf > Float(0.0f));
+        if (scene.has_volumes) record_media(chunk, i, ray);
         if (wants_detail) add_features(chunk, i, detail, flags, scatters);
         if (any(c.below)) enter_subsurface(chunk, i, ray, c, scatters);
         const Spectrum passed = throughput * transparency * (1.0f / max(pick_through, 1e-37f));
         send_on(chunk, i, ray, c, scatters, chance.x, passed);
     }
+}
+
+void Tracer::record_media(path::VertexChunk& chunk, int i, Int ray) {
+    path::MediaRecord& media = *chunk.media;
+    store_media(media, i, load_media(*now, ray));
+    store(media.scatterings + i, scatterings_in_media(gather(now->transparent, ray)));
+    store(media.surface_instance + i, load(scratch.shading.instance + i));
+    store(media.backfacing + i, select(load(scratch.shading.backfacing + i) > Float(0.5f), Int(1), Int(0)));
 }
 
 void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask scatters, Float chance, Spectrum passed) {
@@ -141,7 +151,8 @@ void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask s
     c.valid &= chance < survive;
     carried = carried * (1.0f / max(survive, 1e-37f));
 
-    const Mask passes = c.through & (transparent < Int(settings.max_transparent_bounces));
+    const Mask passes = c.through & (chunk.boundary ? bounds_passed(transparent) < Int(k_most_bounds)
+                                                    : surfaces_passed(transparent) < Int(settings.max_transparent_bounces));
     const Mask go = c.valid | passes;
     if (none(go)) return;
     // Rough specular lobes after a D are not connected to lamps, so that their hits count in full.
@@ -161,7 +172,14 @@ void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask s
     r.path = load(chunk.path + i);
     r.flags = select(passes, flags, path_next.flags);
     r.depth = select(passes, depth, path_next.depth);
-    r.transparent = transparent + select(passes, Int(1), Int(0));
+    r.transparent = transparent + select(passes, Int(chunk.boundary ? 1 << 16 : 1), Int(0));
+    if (scene.has_volumes) {
+        MediaLanes media = load_media(*chunk.media, i);
+        if (chunk.media->surface_material >= 0)
+            cross_surface(media, load(chunk.media->surface_instance + i), Int(chunk.media->surface_material),
+                          load(chunk.media->backfacing + i) != Int(0), passes | (c.valid & c.transmitted));
+        append_media(*next, media, go);
+    }
     append_ray(*next, r, go);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One chunk: rays that hit the same material. Runs its program, keeps the vertices as a record, samples where paths go on.
 #include "path/bsdf_choice.h"
+#include "path/media.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -31,14 +32,20 @@ void blur_glossy(bsdf::Lobe& lobe, int i, Float least_alpha) {
 
 }  // namespace
 
-path::VertexChunk* Tracer::new_record(int lobes) {
+path::VertexChunk* Tracer::new_record(int lobes, bool in_medium) {
     for (int attempt = 0; attempt < 2; ++attempt) {
         const std::size_t mark = scratch.arena.mark();
         auto* chunk = scratch.arena.allocate<path::VertexChunk>(1);
         auto* lobe = scratch.arena.allocate<bsdf::Lobe>(static_cast<std::size_t>(lobes));
         auto* pick = scratch.arena.allocate<Row>(static_cast<std::size_t>(lobes));
-        if (chunk && lobe && pick) {
+        auto* media = scene.has_volumes ? scratch.arena.allocate<path::MediaRecord>(1) : nullptr;
+        auto* medium = in_medium ? scratch.arena.allocate<path::MediumRecord>(1) : nullptr;
+        if (chunk && lobe && pick && (media || !scene.has_volumes) && (medium || !in_medium)) {
             chunk->next = nullptr;
+            chunk->media = media;
+            chunk->medium = medium;
+            chunk->boundary = false;
+            if (media) media->surface_material = -1;
             chunk->lobe = lobe;
             chunk->pick = pick;
             return chunk;
@@ -79,6 +86,8 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     chunk->own_normals = chunk->all_sides = m.info.own_normals;
     for (int k = 0; k < out.lobes; ++k) chunk->all_sides |= bsdf::sends_light_through(out.lobe[k].kind);
     if (m.info.has_subsurface) add_twins(*chunk, list, false);
+    chunk->boundary = is_boundary(m);
+    if (m.volume) chunk->media->surface_material = material;
     scatter(*chunk, list);
     if (scratch.log) log_vertices(*chunk, material);
     keep_record(chunk);

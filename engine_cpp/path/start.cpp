@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "path/camera_rays.h"
-#include "path/tracer.h"
+#include "path/media.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -51,6 +51,7 @@ void Tracer::start() {
     const int frame_width = scene.settings.width;
     path::RayState& rays = *now;
     rays.n = n;
+    MediaLanes around = no_media();
     for (int i = 0; i < n; i += W) {
         const Int x = load(result.x + i), y = load(result.y + i), sample = reverse_bits(load(result.sample + i));
         const Int seed = hash(y * Int(frame_width) + x, Int::of_bits(request.seed * 0x9e3779b9u + 0x7f4a7c15u));
@@ -73,6 +74,18 @@ void Tracer::start() {
         store(rays.flags + i, Int(nodes::ray_camera | path::k_flag_background));
         store(rays.depth + i, Int(0));
         store(rays.transparent + i, Int(0));
+        if (scene.has_volumes) {
+            // Where every ray starts in the same point, the first packet's media are all rays'.
+            const bool same_point =
+                scene.camera.desc.kind == scene::CameraKind::perspective && scene.camera.desc.aperture_radius <= 0;
+            const Mask lanes = first_lanes(n - i);
+            if (i == 0 || !same_point) around = media_around(scene, same_point ? r.o : r.o + r.d * r.t_min, lanes);
+            for (int k = 0; k < path::k_media; ++k) {
+                const bool spread = same_point;
+                store(rays.media_instance[k] + i, spread ? Int(around.instance[k][0]) : around.instance[k]);
+                store(rays.media_material[k] + i, spread ? Int(around.material[k][0]) : around.material[k]);
+            }
+        }
         // Far clipping concerns camera rays alone: kept where hits look for it.
         store(scratch.hits.t + i, r.t_max);
         for (auto& c : result.radiance) {

@@ -58,7 +58,7 @@ void Tracer::project_disk(int i) {
     WalkLanes w = load_walk(q, i);
     w.ray = select(lanes, w.ray, Int(0));
     const Int path = gather(now->path, w.ray);
-    const Int event = byte_of(gather(now->depth, w.ray), 0) + gather(now->transparent, w.ray);
+    const Int event = event_of(gather(now->depth, w.ray), gather(now->transparent, w.ray));
     const WalkRandom random =
         walk_random(gather(scratch.pixel_seed, path), gather(scratch.sample_index, path), event, -1);
 

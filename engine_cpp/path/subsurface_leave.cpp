@@ -2,6 +2,7 @@
 // Where walks end: a Lambert vertex on the other point, with direct light, gathered photons and a way on. It and the entry are one
 // vertex of the path (spec 1).
 #include "path/bsdf_choice.h"
+#include "path/media.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -71,7 +72,8 @@ void Tracer::leave_chunk(const std::int32_t* exits, int n, bool fresnel) {
         store(chunk->flags + i, gather(rays.flags, ray));
         const Int depth = gather(rays.depth, ray);
         store(chunk->depth + i, depth);
-        store(chunk->event + i, byte_of(depth, 0) + gather(rays.transparent, ray) + Int(k_exit_event));
+        store(chunk->event + i, event_of(depth, gather(rays.transparent, ray)) + Int(k_exit_event));
+        if (scene.has_volumes) record_media(*chunk, i, ray);
         store(chunk->gather + i, Float(0.0f));
         store(chunk->radius + i, Float(0.0f));
     }

@@ -83,7 +83,7 @@ void Tracer::step_walks(int step, int i, int end) {
     // Masked lanes hold what earlier batches left.
     w.ray = select(lanes, w.ray, Int(0));
     const Int path = gather(now->path, w.ray);
-    const Int event = byte_of(gather(now->depth, w.ray), 0) + gather(now->transparent, w.ray);
+    const Int event = event_of(gather(now->depth, w.ray), gather(now->transparent, w.ray));
     const WalkRandom random =
         walk_random(gather(scratch.pixel_seed, path), gather(scratch.sample_index, path), event, step);
     const bool similar = step > k_similar_after;

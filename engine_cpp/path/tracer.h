@@ -38,6 +38,20 @@ struct Walk {
     // points.cpp: the shading chunk of rays at one material.
     void fill_shading(int material, const std::int32_t* rays, int n);
 
+    // media_segment.cpp
+    /// What media did to a packet of rays on the way to their hits.
+    struct Segment {
+        Spectrum throughput, emitted;  ///< emitted: radiance for the ray as it came
+        Mask scattered;                ///< and where: t, and the phase function that was chosen
+        Float t = 0.0f;
+        Int kind = Int(0);
+        Vec3 parameter{0.0f, 0.0f, 0.0f};
+    };
+    /// Attenuates the rays [i, i + W) of this bounce.
+    Segment pass_media(int i, Mask lanes);
+    /// Rays that ended in a medium leave the surfaces' chunks.
+    void queue_scattered(int i, const Segment& s);
+
     // subsurface_enter.cpp: gives every subsurface lobe a diffuse one, which has its place where the path was diffuse before, where
     // a channel's radius is nothing, or everywhere (photons).
     void add_twins(path::VertexChunk& chunk, const std::int32_t* rays, bool all_diffuse);
@@ -48,6 +62,7 @@ inline int room_for_lobes(const nodes::ProgramInfo& info) { return info.has_subs
 
 struct Choice;
 struct DetailSum;
+struct MediaLanes;
 
 struct Tracer : Walk {
     const path::BatchRequest& request;
@@ -74,7 +89,7 @@ struct Tracer : Walk {
     /// What Cycles' settings do to lobes: caustics switched off, Filter Glossy.
     void adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_pdf);
     /// Room for a chunk; null if it could never fit.
-    path::VertexChunk* new_record(int lobes);
+    path::VertexChunk* new_record(int lobes, bool in_medium = false);
     /// Its direct light is evaluated later.
     void keep_record(path::VertexChunk* chunk);
     void write_first_hit(const std::int32_t* rays, int n);
@@ -98,6 +113,14 @@ struct Tracer : Walk {
     void project_disk(int i);
     void leave_subsurface();
     void leave_chunk(const std::int32_t* exits, int n, bool fresnel);
+
+    // media_segment.cpp, media_scatter.cpp
+    void cross_media();
+    void scatter_in_media();
+    void scatter_medium_chunk(const std::int32_t* queued, int n);
+    void send_on_from_medium(const path::VertexChunk& chunk, int i, Int ray, Mask lanes);
+    /// Notes the media around the vertices of a surface.
+    void record_media(path::VertexChunk& chunk, int i, Int ray);
 
     // layers.cpp: incident light at x_d, for clusters and filter (thesis 6.2).
     /// Texture detail, normal and depth of the vertices that may be x_d; `flags` of the arriving rays.
@@ -123,8 +146,9 @@ struct Tracer : Walk {
     void add_direct_light();
     void connect(const path::VertexChunk& chunk, int i);
     void flush_shadows();
-    /// Share of the light that transparent surfaces let through; lanes that they block leave `visible`.
-    Spectrum through_transparent(RayLanes ray, Mask& visible);
+    /// Share of the light that transparent surfaces and media (in which the rays start; null: there are none) let through; lanes
+    /// that surfaces block leave `visible`.
+    Spectrum through_transparent(RayLanes ray, Mask& visible, MediaLanes* media);
 
     /// True where some class of the set is estimated by camera paths.
     bool wants(path::ClassSet classes) const { return (request.partition.camera & classes) != 0; }
@@ -161,6 +185,8 @@ struct ShadedPoint {
 /// Runs the programs `program` (ids of SceneView::materials) at the points; gathers lanes by program.
 /// Purpose::emission gives radiance, Purpose::transparency what passes straight through.
 Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active);
+/// The medium of one program at the lanes of `here`; `first` is one of them.
+const nodes::VolumeOutput& volume_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int first);
 
 /// Appends a packet to the log; one that does not fit is dropped.
 inline void log_rays(path::RayLog& log, const RayLanes& ray, Mask active, path::RayKind kind) {
@@ -210,6 +236,15 @@ inline Mask in_set(Int path_class, path::ClassSet set) {
 
 inline Int byte_of(Int packed, int which) { return (packed >> (8 * which)) & Int(255); }
 
+/// RayState::transparent: surfaces passed, bounds of media passed << 16, scatterings in media << 24.
+inline Int surfaces_passed(Int transparent) { return transparent & Int(0xffff); }
+inline Int bounds_passed(Int transparent) { return (transparent >> 16) & Int(255); }
+inline Int scatterings_in_media(Int transparent) { return transparent >> 24; }
+/// Index of the random dimensions of a ray's next event.
+inline Int event_of(Int depth, Int transparent) {
+    return byte_of(depth, 0) + surfaces_passed(transparent) + bounds_passed(transparent);
+}
+
 inline Int state_of(Int flags) { return (flags >> path::k_state_shift) & Int(7); }
 
 /// path::step over lanes: the state after a lobe that is specular or not.
@@ -223,6 +258,11 @@ inline Int step_state(Int state, Mask specular) {
     return select(specular, after_s, after_d);
 }
 
+/// The state after a vertex in a medium: before x_d it changes nothing (path/media_scatter.cpp).
+inline Int state_in_medium(Int state) {
+    return select(state == Int(static_cast<int>(path::State::specular)), state, step_state(state, mask_of(false)));
+}
+
 /// scene::Visibility bit of a ray by its flags: transmission hides the kind of lobe, as in Cycles.
 inline Int visibility_bit(Int flags) {
     const auto has = [&](std::uint32_t f) { return (flags & Int::of_bits(f)) != Int(0); };
@@ -230,6 +270,7 @@ inline Int visibility_bit(Int flags) {
     bit = select(has(nodes::ray_glossy), Int(scene::visible_glossy), bit);
     bit = select(has(nodes::ray_diffuse), Int(scene::visible_diffuse), bit);
     bit = select(has(nodes::ray_transmission), Int(scene::visible_transmission), bit);
+    bit = select(has(nodes::ray_volume), Int(scene::visible_volume), bit);
     return select(has(nodes::ray_camera), Int(scene::visible_camera), bit);
 }
 
