@@ -68,8 +68,11 @@ int main(int argc, char** argv) {
     std::uint64_t hits = 0;
     const auto tiles = render::tiles(film::crop_region(desc.settings), k_samples);
     for (const auto& tile : tiles) {
-        const path::BatchRequest request{
-            &scene.view(), filter.data(), tile.x, tile.y, tile.width, tile.height, 0, k_samples, 0};
+        path::BatchRequest request;
+        request.scene = &scene.view();
+        request.filter_table = filter.data();
+        request.x = tile.x, request.y = tile.y, request.width = tile.width, request.height = tile.height;
+        request.samples = k_samples;
         // The recorded run costs more than a plain one: it is not timed.
         recording.log.n = 0;
         const path::Counters before = scratch->counters;
