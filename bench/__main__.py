@@ -9,7 +9,7 @@ import platform
 import sys
 from pathlib import Path
 
-from . import caustics, choices, efficiency, engines, filter, peers, photons, plot, scene_list, stages, store
+from . import caustics, choices, efficiency, engines, filter, nodes, peers, photons, plot, scene_list, stages, store
 
 ROOT = Path(__file__).resolve().parents[1]
 REDUCED = ("cornell", "metallic_ring", "open_plane")
@@ -57,7 +57,7 @@ def arguments() -> argparse.Namespace:
     three = commands.add_parser("start", help="F12 to the first tile; export and build of a million triangles")
     three.add_argument("--runs", type=int, default=5)
     commands.add_parser("memory", help="bytes per triangle and per pixel")
-    for module in (caustics, peers, photons, choices, filter):
+    for module in (caustics, peers, photons, choices, filter, nodes):
         module.add_arguments(commands)
     commands.add_parser("list", help="the engines and scenes, and what is missing for each")
     return parser.parse_args()
@@ -195,6 +195,7 @@ def main() -> int:
         "photons": photons.run,
         "choices": choices.run,
         "filter": filter.run,
+        "nodes": nodes.run,
     }
     return commands[options.command](options, found)
 
