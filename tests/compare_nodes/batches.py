@@ -21,7 +21,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 SECONDS = 240.0
 """A Blender that takes longer is stopped and its batch has failed."""
-NOISY_SAMPLES = 400
+NOISY_SAMPLES = 128
 SAMPLES = {"CYCLES": 1, "CARDIOID": 16}
 """Cycles' first sample is the pixel's centre; Cardioid's many lie around it, within stage.FILTER, and are averaged."""
 WARNINGS = ("Material “", "Object “")
@@ -75,7 +75,7 @@ def start(host: hosts.Host, argument: str, folder: str) -> tuple[int, str]:
 
 
 def listing(host: hosts.Host) -> dict[str, dict]:
-    """All cases: name to the node it uses, its bounds and whether it is noisy."""
+    """All cases: name to the node it uses, its bounds and its group."""
     with tempfile.TemporaryDirectory() as folder:
         _, text = start(host, "--list", folder)
     for found in text.splitlines():
@@ -88,12 +88,12 @@ def chosen(listed: dict[str, dict], patterns: list[str]) -> list[str]:
     return [n for n in listed if not patterns or any(fnmatch.fnmatchcase(n, p) for p in patterns)]
 
 
-def render(host: hosts.Host, engine: str, names: list[str], noisy: bool) -> Rendered:
+def render(host: hosts.Host, engine: str, names: list[str], group: str) -> Rendered:
     result = Rendered()
     waiting = [names]
     while waiting:
         batch = waiting.pop()
-        problem = render_batch(host, engine, batch, noisy, result)
+        problem = render_batch(host, engine, batch, group == "noisy", result)
         if problem and len(batch) > 1:
             middle = len(batch) // 2
             waiting += [batch[middle:], batch[:middle]]

@@ -25,7 +25,8 @@ class Case:
 
     stage: the shape and the place of the tile (stage.py). floor: see FLOOR; larger where the value depends on the exact
     place of the sample, which the engines choose within a hundredth of a pixel. noisy: an integral, rendered with many
-    samples; only its mean is compared. uses: the node type that the case is about.
+    samples; only its mean is compared. perspective: seen by a camera with perspective (for flat tiles only).
+    uses: the node type that the case is about.
     """
 
     name: str
@@ -35,6 +36,12 @@ class Case:
     tolerance: float = TOLERANCE
     floor: float = FLOOR
     noisy: bool = False
+    perspective: bool = False
+
+    @property
+    def group(self) -> str:
+        """Cases of one group share a picture."""
+        return "noisy" if self.noisy else "perspective" if self.perspective else "exact"
 
 
 CASES: dict[str, Case] = {}
@@ -57,6 +64,7 @@ def row(
     tolerance: float = TOLERANCE,
     floor: float = FLOOR,
     noisy: bool = False,
+    perspective: bool = False,
     **properties: Any,
 ) -> None:
     """A case of one node: its properties, its inputs (constants, or functions of the tile) and the output shown
@@ -66,7 +74,7 @@ def row(
         node = tile.node(kind, inputs, setup=setup, **properties)
         return tile.output(node, output)
 
-    add(Case(name, build, kind, stage, tolerance, floor, noisy))
+    add(Case(name, build, kind, stage, tolerance, floor, noisy, perspective))
 
 
 def case(name: str, uses: str, **options: Any) -> Callable[[Callable[[Any], Any]], Callable[[Any], Any]]:

@@ -71,12 +71,12 @@ def result_of(host: str, name: str, told: dict, ours: Any, reference: Any) -> Re
     result.ours, result.reference = a[0], b[0]
 
     def judge(picture: np.ndarray) -> pixels.Verdict:
-        if told["noisy"]:
+        if told["group"] == "noisy":
             return pixels.compare_noisy(picture, b[0], told["floor"])
         return pixels.compare(picture, b, told["tolerance"], told["floor"])
 
     result.verdict = judge(a[0])
-    if result.verdict.passed and not told["noisy"]:
+    if result.verdict.passed and told["group"] != "noisy":
         result.blind = judge(pixels.mutant(a[0])).passed
     return result
 

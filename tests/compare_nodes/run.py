@@ -34,12 +34,12 @@ def run_host(host: hosts.Host, options: argparse.Namespace) -> list[Result]:
     names = [n for n in batches.chosen(listing, options.case) if not options.quick or listing[n]["quick"]]
     found: list[Result] = []
     with ThreadPoolExecutor(2) as pool:
-        for noisy in (False, True):
-            group = [n for n in names if listing[n]["noisy"] == noisy]
-            if group:
-                ours = pool.submit(batches.render, host, "CARDIOID", group, noisy)
-                reference = batches.render(host, "CYCLES", group, noisy)
-                found += results_of(host.name, listing, group, ours.result(), reference)
+        for group in ("exact", "perspective", "noisy"):
+            own = [n for n in names if listing[n]["group"] == group]
+            if own:
+                ours = pool.submit(batches.render, host, "CARDIOID", own, group)
+                reference = batches.render(host, "CYCLES", own, group)
+                found += results_of(host.name, listing, own, ours.result(), reference)
     return found
 
 

@@ -172,10 +172,12 @@ def nudge(data: bpy.types.Mesh, amount: float) -> None:
     data.update()
 
 
-def camera(columns: int, rows: int) -> None:
+def camera(columns: int, rows: int, perspective: bool) -> None:
+    """Looks at the tiles from ten metres above."""
     scene = bpy.context.scene
     data = bpy.data.cameras.new("Camera")
-    data.type, data.sensor_fit, data.ortho_scale = "ORTHO", "HORIZONTAL", columns
+    data.type, data.sensor_fit = "PERSP" if perspective else "ORTHO", "HORIZONTAL"
+    data.ortho_scale, data.angle = columns, 2.0 * math.atan(columns / 2 / 10.0)
     eye = bpy.data.objects.new("Camera", data)
     eye.location = (columns / 2, rows / 2, 10.0)
     scene.collection.objects.link(eye)

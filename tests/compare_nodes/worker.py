@@ -111,7 +111,7 @@ def run(task: dict, folder: str) -> None:
     Path(task["out"] + ".json").write_text(json.dumps({"built": built, "skipped": skipped, "broken": broken}))
     if not built:
         return
-    stage.camera(*stage.grid(len(built)))
+    stage.camera(*stage.grid(len(built)), perspective=registry.CASES[built[0]].perspective)
     settings(scene, task["engine"])
     pictures = [picture(folder, len(built))]
     for amount, x, y in MOVES if task["moved"] else ():
@@ -128,7 +128,7 @@ def listing() -> dict[str, dict]:
     seen: set[str] = set()
     found = {}
     for case in registry.CASES.values():
-        found[case.name] = {"uses": case.uses, "tolerance": case.tolerance, "floor": case.floor, "noisy": case.noisy,
+        found[case.name] = {"uses": case.uses, "tolerance": case.tolerance, "floor": case.floor, "group": case.group,
                             "quick": case.uses not in seen and not case.noisy}  # fmt: skip
         seen.add(case.uses)
     return found

@@ -70,6 +70,17 @@ for output in ("View Vector", "View Z Depth", "View Distance"):
     for stage in ("flat", "placed"):
         row(f"camera data/{output}/{stage}", "CameraData", None, output, stage=stage, floor=EXACT_PLACE)
 
+for output in ("Camera", "Window", "Reflection"):
+    row(f"texture coordinate/{output}/perspective", "TexCoord", None, output, perspective=True, floor=EXACT_PLACE)
+for output in ("View Vector", "View Z Depth", "View Distance"):
+    row(f"camera data/{output}/perspective", "CameraData", None, output, perspective=True, floor=EXACT_PLACE)
+row("geometry/Incoming/perspective", "NewGeometry", None, "Incoming", perspective=True, floor=EXACT_PLACE)
+row("light path/Ray Length/perspective", "LightPath", None, "Ray Length", perspective=True, floor=EXACT_PLACE)
+row("fresnel/perspective", "Fresnel", {"IOR": 1.45}, perspective=True)
+row("layer weight/perspective", "LayerWeight", {"Blend": 0.4}, "Facing", perspective=True)
+row("bump/perspective", "Bump", {"Height": (lambda tile: waves(tile)), "Distance": 0.08}, perspective=True,
+    floor=EXACT_PLACE)  # fmt: skip
+
 for stage in ("flat", "through", "glass", "mirror"):
     for output in ("Is Camera Ray", "Is Shadow Ray", "Is Diffuse Ray", "Is Glossy Ray", "Is Singular Ray",
                    "Is Reflection Ray", "Is Transmission Ray", "Is Volume Scatter Ray", "Ray Length", "Ray Depth",
@@ -116,7 +127,6 @@ row("layer weight/normal fresnel", "LayerWeight", {"Blend": 0.6, "Normal": AROUN
 
 for size in (0.01, 0.05):
     row(f"wireframe/{size}", "Wireframe", {"Size": size}, stage="coarse")
-    row(f"wireframe/{size}/placed", "Wireframe", {"Size": size * 0.4}, stage="placed")
 row("wireframe/pixels", "Wireframe", {"Size": 2.0}, stage="coarse", use_pixel_size=True)
 
 for axis, stage in product("XYZ", ("placed", "facets")):
