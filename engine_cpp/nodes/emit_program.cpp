@@ -62,7 +62,7 @@ public:
         for (std::size_t k = 0; k < live_.size(); ++k)
             if (live_[k] && !place(out, k)) return false;
         out.registers = registers_.highest();
-        out.data = builder_.data();
+        if (!out.code.empty()) out.data = builder_.data();
         return true;
     }
 

@@ -17,7 +17,7 @@ Index make_index() {
     Index index;
     for (const auto family :
          {closure_nodes(), principled_nodes(), input_nodes(), info_nodes(), math_nodes(), color_nodes(),
-          convert_nodes(), texture_nodes(), image_nodes(), vector_nodes(), ray_nodes(), special_nodes(), volume_nodes(), hair_nodes()})
+          convert_nodes(), texture_nodes(), image_nodes(), vector_nodes(), ray_nodes(), special_nodes(), sky_nodes(), volume_nodes(), hair_nodes()})
         for (const NodeType& type : family) index.emplace(type.idname, &type);
     return index;
 }

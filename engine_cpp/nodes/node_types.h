@@ -54,6 +54,7 @@ std::span<const NodeType> image_nodes();
 std::span<const NodeType> vector_nodes();
 std::span<const NodeType> ray_nodes();
 std::span<const NodeType> special_nodes();
+std::span<const NodeType> sky_nodes();
 std::span<const NodeType> volume_nodes();
 std::span<const NodeType> hair_nodes();
 /// Listed alone: the compiler takes them for unknown.
