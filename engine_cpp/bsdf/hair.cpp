@@ -49,7 +49,7 @@ Float fibre_density(const Fibre& f, Vec3 wi, bool through) {
         ok &= cos_phi < zero;
     } else {
         around = cos(0.5f * min(phi / f.azimuth, k_pi)) * 0.25f / f.azimuth;
-        ok &= cos_phi >= zero;
+        ok &= phi < k_pi * f.azimuth;
     }
     return select(ok, around * f.along(theta), zero);
 }
@@ -68,9 +68,8 @@ Vec3 sample_fibre(const Fibre& f, Vec3 u, bool through) {
 LobeEval unweighted(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi) {
     if (lobe.kind == LobeKind::hair_chiang) return eval_chiang(lobe, i, wo, wi);
     const bool through = lobe.kind == LobeKind::hair_transmission;
-    const Mask inside = dot(load3(lobe.normal, i), wi) < Float(0.0f);
-    const Float pdf = fibre_density(Fibre(lobe, i, wo), wi, through);
-    const Float value = select(through ? inside : ~inside, pdf, Float(0.0f));
+    // Cycles drops what lies on the other side of the shading normal for light samples alone; here a lobe is one.
+    const Float value = fibre_density(Fibre(lobe, i, wo), wi, through);
     return {Spectrum(value), value};
 }
 

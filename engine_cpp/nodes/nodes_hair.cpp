@@ -123,14 +123,21 @@ void principled_hair(NodeContext& c, Ref weight) {
                               : absorption_of(c, c.color("Color", {0.017513f, 0.005763f, 0.002059f}), radial);
     const Ref zero = b.constant(0);
     l.f90 = {across(c, l.tangent, l.normal), c.number("Offset", 0.034907f), zero};
-    l.tint = {zero, zero, zero};
+    l.tint = b.constant(Float3{1, 1, 1});
+    if (huang) {
+        const auto part = [&](const char* id) { return b.maximum(c.number(id, 1), zero); };
+        l.tint = {part("R lobe"), part("TT lobe"), part("TRT lobe")};
+    }
     c.hair_lobe(l);
 }
 
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeBsdfHair", nullptr, hair, Support::same, ""},
-    {"ShaderNodeBsdfHairPrincipled", nullptr, principled_hair, Support::approximated,
-     "the model of Chiang et al.; Huang's is rendered by it"},
+    {"ShaderNodeBsdfHairPrincipled",
+     nullptr,
+     principled_hair,
+     {Support::same, Support::approximated, Support::approximated, Support::approximated},
+     "the model Huang is rendered by Chiang's, with its factors of R, TT and TRT; sections are round"},
 };
 
 }  // namespace

@@ -2,7 +2,8 @@
 """Directional albedos of Cycles' closures under a white world, for the table in test_cycles_albedos.cpp.
 
 Run in any Blender: `blender -b -P record_cycles_albedos.py` or `python record_cycles_albedos.py` with a bpy wheel.
-Prints one line per material: albedo at cosines 1, 0.6 and 0.25 (red, green, blue).
+ALBEDOS=word,word records only the closures with such a word in their name. Prints one line per material: albedo at
+cosines 1, 0.6 and 0.25 (red, green, blue).
 """
 import math
 import os
@@ -25,12 +26,37 @@ COMMON = [
     ("glass inside", "Glass", {"Color": 1, "Roughness": 0.5, "IOR": 1.5, "distribution": "GGX"}, True),
     ("refraction", "Refraction", {"Color": 1, "Roughness": 0.5, "IOR": 1.5, "distribution": "GGX"}, False),
 ]
+BLACK = {"Base Color": 0}
+BECKMANN_GLASS = {"Color": 1, "Roughness": 0.5, "IOR": 1.5, "distribution": "BECKMANN"}
+FACETS = [
+    (f"{name} {roughness}", GLOSSY, {"Color": 1, "Roughness": roughness, "distribution": distribution}, False)
+    for name, distribution in (("beckmann", "BECKMANN"), ("ashikhmin", "ASHIKHMIN_SHIRLEY"))
+    for roughness in (0.3, 0.6, 1.0)
+]
+COMMON += [
+    *FACETS,
+    ("beckmann refraction", "Refraction", BECKMANN_GLASS, False),
+    ("beckmann glass", "Glass", BECKMANN_GLASS, False),
+    ("toon diffuse", "Toon", {"Color": 1, "Size": 0.4, "Smooth": 0.3, "component": "DIFFUSE"}, False),
+    ("toon glossy", "Toon", {"Color": 1, "Size": 0.4, "Smooth": 0.3, "component": "GLOSSY"}, False),
+    ("toon sharp", "Toon", {"Color": 1, "Size": 0.6, "Smooth": 0.0, "component": "GLOSSY"}, False),
+    ("translucent", "Translucent", {"Color": 1}, False),
+    ("hair reflection", "Hair", {"Color": 1, "RoughnessU": 0.3, "RoughnessV": 0.4, "component": "Reflection"}, False),
+    ("hair transmission", "Hair", {"Color": 1, "RoughnessU": 0.3, "RoughnessV": 0.4, "component": "Transmission"},
+     False),
+    ("principled hair 0.3", "HairPrincipled", {"parametrization": "ABSORPTION", "Roughness": 0.3,
+                                               "Radial Roughness": 0.3}, False),
+    ("principled hair 0.7", "HairPrincipled", {"parametrization": "ABSORPTION", "Roughness": 0.7,
+                                               "Radial Roughness": 0.5, "Coat": 0.5}, False),
+]
 V1 = {"Specular": 0.0}
 ONLY_OLD = [
     ("velvet", "Velvet", {"Color": 1, "Sigma": 0.5}, False),
     ("burley 0.5", "Principled", {"Base Color": 1, "Roughness": 0.5, **V1}, False),
     ("burley 1", "Principled", {"Base Color": 1, "Roughness": 1.0, **V1}, False),
     ("sheen v1", "Principled", {"Base Color": 0, "Sheen": 1.0, "Sheen Tint": 0.0, **V1}, False),
+    ("clearcoat 0.2", "Principled", {**BLACK, **V1, "Clearcoat": 1.0, "Clearcoat Roughness": 0.2}, False),
+    ("clearcoat 0.6", "Principled", {**BLACK, **V1, "Clearcoat": 1.0, "Clearcoat Roughness": 0.6}, False),
     ("specular v1", "Principled", {"Base Color": 0, "Specular": 0.5, "Roughness": 0.5}, False),
 ]
 MULTI_GLASS = {"Color": 1, "Roughness": 0.5, "IOR": 1.5, "distribution": "MULTI_GGX"}
@@ -47,6 +73,20 @@ ONLY_NEW = [
                              "Specular Tint": (0.8, 0.9, 0.5, 1)}, False),
     ("conductor", "Metallic", {"Roughness": 0.3, "fresnel_type": "PHYSICAL_CONDUCTOR", "distribution": "GGX"}, False),
 ]
+FILM = {"Thin Film Thickness": 400.0, "Thin Film IOR": 1.8}
+ONLY_NEW += [
+    ("beckmann metal", "Metallic", {"Roughness": 0.6, "distribution": "BECKMANN"}, False),
+    ("film specular", "Principled", {**BLACK, "Roughness": 0.2, "distribution": "GGX", **FILM}, False),
+    ("film glass v2", "Principled", {"Base Color": 1, "Roughness": 0.2, "Transmission Weight": 1.0,
+                                     "distribution": "GGX", **FILM}, False),
+]
+if bpy.app.version >= (5, 0, 0):
+    ONLY_NEW += [
+        ("film metal", "Metallic", {"Roughness": 0.2, "distribution": "GGX", **FILM}, False),
+        ("film conductor", "Metallic", {"Roughness": 0.2, "distribution": "GGX", "fresnel_type": "PHYSICAL_CONDUCTOR",
+                                        **FILM}, False),
+        ("film glass", "Glass", {"Color": 1, "Roughness": 0.2, "distribution": "GGX", **FILM}, False),
+    ]
 
 
 def material(kind, values):
@@ -57,8 +97,8 @@ def material(kind, values):
     tree.nodes.clear()
     node = tree.nodes.new("ShaderNodeBsdf" + kind)
     for name, value in values.items():
-        if name in node.inputs:
-            socket = node.inputs[name]
+        if name in {socket.identifier for socket in node.inputs}:
+            socket = next(s for s in node.inputs if s.identifier == name)
             is_grey = socket.type == "RGBA" and not hasattr(value, "__len__")
             socket.default_value = (value, value, value, 1) if is_grey else value
         else:
@@ -83,7 +123,8 @@ def build_scene():
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs[0].default_value = (1, 1, 1, 1)
     mesh = bpy.data.meshes.new("plane")
-    mesh.from_pydata([(-1e3, -1e3, 0), (1e3, -1e3, 0), (1e3, 1e3, 0), (-1e3, 1e3, 0)], [], [(0, 1, 2, 3)])
+    # One triangle: its edges are the tangents of hair.
+    mesh.from_pydata([(-3e3, -1e3, 0), (3e3, -1e3, 0), (0, 3e3, 0)], [], [(0, 1, 2)])
     plane = bpy.data.objects.new("plane", mesh)
     camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
     camera.data.type = "ORTHO"
@@ -111,7 +152,10 @@ def albedo(scene, cosine):
 def main():
     """Prints the table."""
     scene, plane = build_scene()
+    wanted = os.environ.get("ALBEDOS", "")
     for name, kind, values, from_inside in COMMON + (ONLY_OLD if OLD else ONLY_NEW):
+        if wanted and not any(word in name for word in wanted.split(",")):
+            continue
         plane.data.materials.clear()
         plane.data.materials.append(material(kind, values))
         plane.rotation_euler = (math.pi if from_inside else 0, 0, 0)
