@@ -66,6 +66,13 @@ def png(tile: Any, space: str = "", alpha_mode: str = "") -> bpy.types.Image:
     return load(write(os.path.join(tile.folder, "colourful.png"), colourful()), space, alpha_mode)
 
 
+def opaque(tile: Any, space: str = "") -> bpy.types.Image:
+    """The same without alpha, so that what alpha does to bytes shows in cases of its own."""
+    solid = colourful()
+    solid[..., 3] = 1.0
+    return load(write(os.path.join(tile.folder, "opaque.png"), solid), space)
+
+
 def exr(tile: Any, space: str = "", alpha_mode: str = "") -> bpy.types.Image:
     return load(write(os.path.join(tile.folder, "bright.exr"), bright(), "OPEN_EXR"), space, alpha_mode)
 
@@ -73,7 +80,9 @@ def exr(tile: Any, space: str = "", alpha_mode: str = "") -> bpy.types.Image:
 def udim(tile: Any) -> bpy.types.Image:
     """Tiles 1001, 1002 and 1011, of different sizes; 1012 is missing."""
     for number, size in ((1001, 8), (1002, 5), (1011, 12)):
-        write(os.path.join(tile.folder, f"tiles.{number}.png"), colourful(size, size, number))
+        pixels = colourful(size, size, number)
+        pixels[..., 3] = 1.0
+        write(os.path.join(tile.folder, f"tiles.{number}.png"), pixels)
     data = bpy.data.images.load(os.path.join(tile.folder, "tiles.1001.png"))
     data.source = "TILED"
     data.filepath = os.path.join(tile.folder, "tiles.<UDIM>.png")

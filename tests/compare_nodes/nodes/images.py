@@ -30,13 +30,15 @@ def textured(name: str, make, at=ABOUT, output: str = "Color", *, stage: str = "
 
 for way, extension in product(("Linear", "Closest", "Cubic", "Smart"), ("REPEAT", "EXTEND", "CLIP", "MIRROR")):
     for output in ("Color", "Alpha"):
-        textured(f"image/{way}/{extension}/{output}", pictures.png, output=output, interpolation=way,
-                 extension=extension)  # fmt: skip
+        textured(f"image/{way}/{extension}/{output}", pictures.opaque if output == "Color" else pictures.png,
+                 output=output, interpolation=way, extension=extension)  # fmt: skip
 for projection, blend in (("BOX", 0.0), ("BOX", 0.3), ("BOX", 1.0), ("SPHERE", 0.0), ("TUBE", 0.0)):
     for stage in ("facets", "placed", "flat"):
-        textured(f"image/{projection} {blend}/{stage}", pictures.png, VEC, stage=stage, projection=projection,
+        textured(f"image/{projection} {blend}/{stage}", pictures.opaque, VEC, stage=stage, projection=projection,
                  projection_blend=blend)  # fmt: skip
-textured("image/no vector", pictures.png, None)
+textured("image/no vector", pictures.opaque, None)
+for way in ("Linear", "Closest", "Cubic"):
+    textured(f"image/{way}/with alpha", pictures.png, interpolation=way)
 for mode, output in product(("STRAIGHT", "PREMUL", "CHANNEL_PACKED", "NONE"), ("Color", "Alpha")):
     textured(f"image/alpha/{mode}/{output}", lambda tile, m=mode: pictures.png(tile, "", m), INSIDE, output)
     textured(f"image/alpha exr/{mode}/{output}", lambda tile, m=mode: straight_exr(tile, m), INSIDE, output)
@@ -52,7 +54,8 @@ SPACES = ("sRGB", "Non-Color", "Raw", "Linear", "Linear ACES", "Linear ACEScg", 
           "Linear DCI-P3 D65", "Linear FilmLight E-Gamut", "Linear Rec.2020", "Linear Rec.709", "Rec.1886",
           "Rec.2020", "ACEScc", "ACEScct", "scene_linear", "Khronos PBR Neutral sRGB", "Rec.2100-PQ")  # fmt: skip
 for space in SPACES:
-    textured(f"image/space/{space}", lambda tile, s=space: pictures.png(tile, s), INSIDE)
+    textured(f"image/space/{space}", lambda tile, s=space: pictures.opaque(tile, s), INSIDE)
+    textured(f"image/space with alpha/{space}", lambda tile, s=space: pictures.png(tile, s), INSIDE)
     textured(f"image/space exr/{space}", lambda tile, s=space: pictures.exr(tile, s), INSIDE)
 
 FILES = (("PNG", "png", "RGB", "16"), ("PNG", "png", "BW", "8"), ("PNG", "png", "BW", "16"),
@@ -122,7 +125,8 @@ textured("image/missing file/alpha", gone, INSIDE, "Alpha")
 
 def sequence(tile):
     for number in (1, 2, 3):
-        pictures.write(os.path.join(tile.folder, f"frame_{number:04}.png"), pictures.colourful(6, 6, 10 + number))
+        path = os.path.join(tile.folder, f"frame_{number:04}.png")
+        pictures.write(path, pictures.colourful(6, 6, 10 + number), mode="RGB")
     data = pictures.load(os.path.join(tile.folder, "frame_0001.png"))
     data.source = "SEQUENCE"
     return data
@@ -141,7 +145,7 @@ def turned(node) -> None:
     node.texture_mapping.translation, node.texture_mapping.rotation = (0.2, -0.1, 0.0), (0.0, 0.0, 0.7)
 
 
-textured("image/texture mapping", pictures.png, ABOUT, setup=turned)
+textured("image/texture mapping", pictures.opaque, ABOUT, setup=turned)
 
 
 def environment(name: str, make=pictures.exr, at=AROUND, **properties) -> None:
@@ -153,7 +157,8 @@ def environment(name: str, make=pictures.exr, at=AROUND, **properties) -> None:
 for projection, way in product(("EQUIRECTANGULAR", "MIRROR_BALL"), ("Linear", "Closest", "Cubic", "Smart")):
     environment(f"environment/{projection}/{way}", projection=projection, interpolation=way)
 environment("environment/long vectors", at=VEC)
-environment("environment/byte", pictures.png)
+environment("environment/byte", pictures.opaque)
+environment("environment/byte with alpha", pictures.png)
 environment("environment/none", lambda tile: None)
 
 SUN = (0.3, -0.5, 0.6)
