@@ -13,12 +13,18 @@
 namespace cardioid::trace {
 
 namespace {
+/// Under which name a mesh has what programs call `name`.
+std::string own_name(const scene::MeshDesc& mesh, const std::string& name) {
+    if (name == nodes::k_active_uv) return mesh.active_uv;
+    if (name == nodes::k_active_color) return mesh.active_color;
+    const std::string prefix = nodes::k_tangent_prefix;
+    return name == prefix + nodes::k_active_uv ? prefix + mesh.active_uv : name;
+}
+
 const scene::AttributeDesc* find_attribute(const scene::MeshDesc& mesh, const std::string& name) {
-    const std::string* wanted = &name;
-    if (name == nodes::k_active_uv) wanted = &mesh.active_uv;
-    if (name == nodes::k_active_color) wanted = &mesh.active_color;
+    const std::string wanted = own_name(mesh, name);
     for (const auto& a : mesh.attributes) {
-        if (a.name == *wanted) return &a;
+        if (a.name == wanted) return &a;
     }
     return nullptr;
 }
