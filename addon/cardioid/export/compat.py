@@ -18,6 +18,9 @@ SINCE: dict[str, tuple[int, int]] = {
     "principled_3": (5, 0),          # films on metal; the coat follows the bumped normal
     "microfacet_2": (3, 5),          # facets mask and shadow each other together
     "diffuse_2": (4, 3),             # rough diffuse keeps its energy
+    "ies_2": (4, 1),                 # photometric files fade beyond their angles …
+    "ies_3": (5, 0),                 # … and keep their last value, as before 4.1
+    "vector_transform_2": (4, 4),    # normals are transformed by the inverse transpose
     "bump_2": (3, 6),                # Bump's own normal may point below the surface
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
     "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
@@ -38,6 +41,8 @@ NODE_SINCE = {
     "ShaderNodeBsdfGlass": "principled_2",
     "ShaderNodeBsdfDiffuse": "diffuse_2",
     "ShaderNodeBump": "bump_2",
+    "ShaderNodeTexIES": ("ies_2", "ies_3"),
+    "ShaderNodeVectorTransform": "vector_transform_2",
     "ShaderNodeNormalMap": "normal_map_2",
     "ShaderNodeDisplacement": "displacement_2",
     "ShaderNodeVectorDisplacement": "displacement_2",
