@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "image/tile_cache.h"
 
+#include <malloc.h>
 #include <new>
 
 namespace cardioid::image {
 namespace {
 
 constexpr std::align_val_t k_alignment{64};
+
+/// Tiles that another thread allocated are free in that thread's arena, where this one cannot use them: without this a cache of
+/// 1 GB was seen to hold 1.3.
+void return_memory() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
+}
 
 }  // namespace
 
@@ -25,6 +34,7 @@ void TileCache::reserve(std::int64_t bytes) {
     if (bytes_.fetch_add(bytes) + bytes <= budget_) return;
     // More than is needed at once, because stopping all readers costs the same for one tile as for a thousand.
     lock_.write([&] { evict(budget_ - budget_ / 8); });
+    return_memory();
 }
 
 bool TileCache::publish(Texture& texture, int tile, TileMemory memory) {

@@ -7,14 +7,18 @@
 #include "trace/mesh_attributes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <thread>
 
 namespace cardioid::trace {
 namespace {
 
 using scene::MeshDesc;
+
+constexpr std::size_t k_chunks_a_round = 2048;  ///< between two looks at whether to go on
 
 /// A vertex and the corner of the triangle whose material moves it.
 struct Move {
@@ -52,90 +56,115 @@ void set_row(Row rows[3], int lane, Float3 v) {
     rows[2][lane] = v.z;
 }
 
-/// One mesh under its first instance.
-class Displacer {
+/// Works out where vertices of one mesh go under its first instance; one for each thread.
+class Evaluator {
 public:
-    Displacer(MeshDesc& mesh, const SlotKey& slots, const nodes::GeometryTables& geometry,
+    Evaluator(const MeshDesc& mesh, const std::vector<Float3>& normals, const nodes::GeometryTables& geometry,
               const std::vector<MaterialView>& materials)
-        : mesh_(mesh), slots_(slots), geometry_(geometry), materials_(materials), normals_(smooth_normals(mesh)) {
-        chunk_->geometry = &geometry_;
+        : mesh_(mesh), normals_(normals), at_(geometry.instances[0]), materials_(materials) {
+        chunk_->geometry = &geometry;
     }
 
-    void run(const std::function<void()>& checkpoint) {
-        const std::vector<Move> moves = collect();
-        offsets_.assign(mesh_.positions.size() / 3, {});
-        for (std::size_t first = 0; first < moves.size();) {
-            std::size_t end = first;
-            while (end < moves.size() && end - first < k_chunk && moves[end].material == moves[first].material) ++end;
-            evaluate(&moves[first], static_cast<int>(end - first));
-            if (first % 65536 < k_chunk) checkpoint();
-            first = end;
-        }
-        for (std::size_t v = 0; v < offsets_.size(); ++v) {
-            mesh_.positions[3 * v] += offsets_[v].x;
-            mesh_.positions[3 * v + 1] += offsets_[v].y;
-            mesh_.positions[3 * v + 2] += offsets_[v].z;
-        }
-    }
-
-private:
-    int material(std::size_t triangle) const { return slots_[mesh_.slots.empty() ? 0 : mesh_.slots[triangle]]; }
-
-    /// Sorted by material, so that chunks are full.
-    std::vector<Move> collect() const {
-        std::vector<bool> done(mesh_.positions.size() / 3, false);
-        std::vector<Move> moves;
-        for (std::uint32_t c = 0; c < mesh_.triangles.size(); ++c) {
-            const int id = material(c / 3);
-            if (id < 0 || done[mesh_.triangles[c]]) continue;
-            done[mesh_.triangles[c]] = true;
-            moves.push_back({id, c});
-        }
-        std::stable_sort(moves.begin(), moves.end(), [](Move a, Move b) { return a.material < b.material; });
-        return moves;
-    }
-
-    void evaluate(const Move* moves, int n) {
-        const nodes::InstanceInfo& at = geometry_.instances[0];
+    /// Up to k_chunk moves of one material; writes offsets in object space, by vertex.
+    void run(const Move* moves, int n, std::vector<Float3>& offsets) {
         nodes::ShadingChunk& c = *chunk_;
         c.n = n;
         c.material_pass_index = materials_[moves[0].material].pass_index;
-        for (int lane = 0; lane < k_chunk; ++lane) set_lane(lane, moves[std::min(lane, n - 1)].corner, at);
+        for (int lane = 0; lane < k_chunk; ++lane) set_lane(lane, moves[std::min(lane, n - 1)].corner);
         for (auto& row : out_->displacement) std::fill_n(row, k_chunk, 0.0f);
         CD_ISA_NS::run_program(*materials_[moves[0].material].displacement, c, *out_, *scratch_);
         for (int lane = 0; lane < n; ++lane) {
             const Float3 world{out_->displacement[0][lane], out_->displacement[1][lane], out_->displacement[2][lane]};
-            const Float3 d = at.world_to_object.vector(world);
-            offsets_[mesh_.triangles[moves[lane].corner]] = {finite_or_zero(d.x), finite_or_zero(d.y),
-                                                             finite_or_zero(d.z)};
+            const Float3 d = at_.world_to_object.vector(world);
+            offsets[mesh_.triangles[moves[lane].corner]] = {finite_or_zero(d.x), finite_or_zero(d.y),
+                                                            finite_or_zero(d.z)};
         }
     }
 
+private:
     /// There is no ray: the view direction is zero, as in Cycles.
-    void set_lane(int lane, std::uint32_t corner, const nodes::InstanceInfo& at) {
+    void set_lane(int lane, std::uint32_t corner) {
         nodes::ShadingChunk& c = *chunk_;
         const std::uint32_t triangle = corner / 3, vertex = mesh_.triangles[corner];
         const std::uint32_t* v = &mesh_.triangles[3 * std::size_t{triangle}];
         const Float3 p0 = position(mesh_, v[0]), e1 = position(mesh_, v[1]) - p0, e2 = position(mesh_, v[2]) - p0;
-        set_row(c.position, lane, at.object_to_world.point(position(mesh_, vertex)));
-        set_row(c.normal, lane, normalize(at.world_to_object.transposed_vector(normals_[vertex])));
-        set_row(c.normal_geometric, lane, normalize(at.world_to_object.transposed_vector(cross(e1, e2))));
-        set_row(c.dp_du, lane, at.object_to_world.vector(e1));
-        set_row(c.dp_dv, lane, at.object_to_world.vector(e2));
+        set_row(c.position, lane, at_.object_to_world.point(position(mesh_, vertex)));
+        set_row(c.normal, lane, normalize(at_.world_to_object.transposed_vector(normals_[vertex])));
+        set_row(c.normal_geometric, lane, normalize(at_.world_to_object.transposed_vector(cross(e1, e2))));
+        set_row(c.dp_du, lane, at_.object_to_world.vector(e1));
+        set_row(c.dp_dv, lane, at_.object_to_world.vector(e2));
         c.barycentric_u[lane] = corner % 3 == 1 ? 1.0f : 0.0f;
         c.barycentric_v[lane] = corner % 3 == 2 ? 1.0f : 0.0f;
         c.triangle[lane] = static_cast<std::int32_t>(triangle);
     }
 
-    MeshDesc& mesh_;
-    const SlotKey& slots_;
-    const nodes::GeometryTables& geometry_;
+    const MeshDesc& mesh_;
+    const std::vector<Float3>& normals_;
+    const nodes::InstanceInfo& at_;
     const std::vector<MaterialView>& materials_;
-    std::vector<Float3> normals_, offsets_;
     std::unique_ptr<nodes::ShadingChunk> chunk_ = std::make_unique<nodes::ShadingChunk>();
     std::unique_ptr<nodes::SurfaceOutput> out_ = std::make_unique<nodes::SurfaceOutput>();
     std::unique_ptr<nodes::Scratch> scratch_ = std::make_unique<nodes::Scratch>();
 };
+
+/// Every vertex that moves, sorted by material so that chunks are full.
+std::vector<Move> moves_of(const MeshDesc& mesh, const SlotKey& slots) {
+    std::vector<bool> done(mesh.positions.size() / 3, false);
+    std::vector<Move> moves;
+    for (std::uint32_t c = 0; c < mesh.triangles.size(); ++c) {
+        const int id = slots[mesh.slots.empty() ? 0 : mesh.slots[c / 3]];
+        if (id < 0 || done[mesh.triangles[c]]) continue;
+        done[mesh.triangles[c]] = true;
+        moves.push_back({id, c});
+    }
+    std::stable_sort(moves.begin(), moves.end(), [](Move a, Move b) { return a.material < b.material; });
+    return moves;
+}
+
+/// First move of each chunk, and the end.
+std::vector<std::size_t> chunks_of(const std::vector<Move>& moves) {
+    std::vector<std::size_t> begins;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const bool full = !begins.empty() && i - begins.back() == k_chunk;
+        if (i == 0 || full || moves[i].material != moves[i - 1].material) begins.push_back(i);
+    }
+    begins.push_back(moves.size());
+    return begins;
+}
+
+/// Moves the vertices on `threads` threads. Each is worked out alone, so their number changes nothing.
+void move_vertices(MeshDesc& mesh, const SlotKey& slots, const nodes::GeometryTables& geometry,
+                   const std::vector<MaterialView>& materials, int threads, const std::function<void()>& checkpoint) {
+    const std::vector<Move> moves = moves_of(mesh, slots);
+    const std::vector<std::size_t> begins = chunks_of(moves);
+    const std::vector<Float3> normals = smooth_normals(mesh);
+    std::vector<Float3> offsets(mesh.positions.size() / 3);
+    std::vector<std::unique_ptr<Evaluator>> evaluators;
+    for (int t = 0; t < threads; ++t)
+        evaluators.push_back(std::make_unique<Evaluator>(mesh, normals, geometry, materials));
+    for (std::size_t first = 0; first + 1 < begins.size(); first += k_chunks_a_round) {
+        checkpoint();
+        const std::size_t end = std::min(first + k_chunks_a_round, begins.size() - 1);
+        std::atomic<std::size_t> next{first};
+        const auto work = [&](Evaluator& evaluator) {
+            for (std::size_t k = next++; k < end; k = next++)
+                evaluator.run(&moves[begins[k]], static_cast<int>(begins[k + 1] - begins[k]), offsets);
+        };
+        std::vector<std::jthread> others;
+        for (std::size_t t = 1; t < evaluators.size(); ++t) others.emplace_back([&, t] { work(*evaluators[t]); });
+        work(*evaluators[0]);
+    }
+    for (std::size_t v = 0; v < offsets.size(); ++v) {
+        mesh.positions[3 * v] += offsets[v].x;
+        mesh.positions[3 * v + 1] += offsets[v].y;
+        mesh.positions[3 * v + 2] += offsets[v].z;
+    }
+}
+
+int thread_count(const scene::Settings& settings) {
+    const int all = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
+    return settings.threads > 0 ? std::min(settings.threads, all) : all;
+}
 
 /// Named attributes that would follow from the moved shape are stored as they were before.
 void keep_shape_attributes(MeshDesc& mesh, const std::vector<std::string>& names) {
@@ -173,7 +202,7 @@ MeshDesc displaced(const MeshDesc& mesh, const PlacedMesh& placed, const PlacedL
     SceneView probe = view;
     pool.fill(probe);
     MeshDesc moved = std::move(one.meshes[0]);
-    Displacer(moved, slots, probe.geometry, materials).run(checkpoint);
+    move_vertices(moved, slots, probe.geometry, materials, thread_count(view.settings), checkpoint);
     const auto reshaded = [&](std::size_t triangle) {
         const int id = slots[moved.slots.empty() ? 0 : moved.slots[triangle]];
         return id >= 0 && descs[id].displacement_method == scene::DisplacementMethod::displacement;

@@ -39,16 +39,31 @@ struct CornersOf {
     }
 };
 
-/// Its corners have the face's normal while some vertex is not turned that way.
-bool is_flat(const MeshDesc& mesh, const std::vector<Float3>& vertex, std::size_t triangle) {
-    const Float3 face = face_normal(mesh, mesh.positions, triangle);
-    bool turned = false;
-    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c) {
-        if (!same(corner_normal(mesh, c), face)) return false;
-        turned = turned || !same(vertex[mesh.triangles[c]], face);
-    }
-    return turned;
+std::vector<Float3> face_normals(const MeshDesc& mesh, const std::vector<float>& positions) {
+    std::vector<Float3> normals(mesh.triangles.size() / 3);
+    for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = face_normal(mesh, positions, t);
+    return normals;
 }
+
+/// What the corners of a mesh are shaded by before it moves.
+struct Before {
+    std::vector<Float3> corner, vertex, face;
+
+    explicit Before(const MeshDesc& mesh)
+        : corner(mesh.triangles.size()), vertex(vertex_normals(mesh)), face(face_normals(mesh, mesh.positions)) {
+        for (std::size_t c = 0; c < corner.size(); ++c) corner[c] = corner_normal(mesh, c);
+    }
+
+    /// Its corners have the face's normal while some vertex is not turned that way.
+    bool is_flat(const MeshDesc& mesh, std::size_t triangle) const {
+        bool turned = false;
+        for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c) {
+            if (!same(corner[c], face[triangle])) return false;
+            turned = turned || !same(vertex[mesh.triangles[c]], face[triangle]);
+        }
+        return turned;
+    }
+};
 
 }  // namespace
 
@@ -70,23 +85,23 @@ std::vector<Float3> smooth_normals(const MeshDesc& mesh) {
 
 std::vector<float> displaced_normals(const MeshDesc& mesh, const std::vector<float>& positions,
                                      const std::function<bool(std::size_t)>& reshaded) {
-    const std::vector<Float3> vertex = vertex_normals(mesh);
+    const Before before(mesh);
+    const std::vector<Float3> faces = face_normals(mesh, positions);
     const CornersOf corners(mesh);
     std::vector<float> normals = mesh.corner_normals;
     for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
         if (!reshaded(c / 3)) continue;
-        const Float3 before = corner_normal(mesh, c);
         Float3 sum;
-        if (is_flat(mesh, vertex, c / 3)) {
-            sum = face_normal(mesh, positions, c / 3);
+        if (before.is_flat(mesh, c / 3)) {
+            sum = faces[c / 3];
         } else {
             const std::uint32_t v = mesh.triangles[c];
             // A normal that is the vertex's own has every face in it, flat ones too.
-            const bool whole = same(before, vertex[v]);
+            const bool whole = same(before.corner[c], before.vertex[v]);
             for (std::uint32_t k = corners.first[v]; k < corners.first[v + 1]; ++k) {
                 const std::uint32_t other = corners.corner[k];
-                if (reshaded(other / 3) && (whole || same(corner_normal(mesh, other), before)))
-                    sum = sum + face_normal(mesh, positions, other / 3);
+                if (reshaded(other / 3) && (whole || same(before.corner[other], before.corner[c])))
+                    sum = sum + faces[other / 3];
             }
         }
         sum = normalize(sum);

@@ -56,6 +56,23 @@ TEST(Validate, AGoodSceneIsLeftAlone) {
     EXPECT_EQ(write_json(scene), before);
 }
 
+TEST(Validate, ValuesByNameAreNamedAndFinite) {
+    SceneDesc scene = good_scene();
+    scene.instances[0].values = {{"object:a", {1, k_nan, 3, 1}}, {"", {1, 1, 1, 1}}, {"object:b", {4, 5, 6, 1}}};
+    expect_warning(scene, {"value \"object:a\"", "not finite"});
+    ASSERT_EQ(scene.instances[0].values.size(), 2u);
+    EXPECT_EQ(scene.instances[0].values[0].value, (std::array<float, 4>{1, 0, 3, 1}));
+}
+
+TEST(Validate, EdgesBeyondTheVerticesAreIgnored) {
+    for (const std::vector<std::uint32_t>& edges : {std::vector<std::uint32_t>{0, 1, 2}, {0, 99}}) {
+        SceneDesc scene = good_scene();
+        scene.meshes[0].edges = edges;
+        expect_warning(scene, {"mesh \"Plane\"", "edges"});
+        EXPECT_TRUE(scene.meshes[0].edges.empty());
+    }
+}
+
 TEST(Validate, NanPositionsDropTheirTriangles) {
     SceneDesc scene = good_scene();
     scene.meshes[0].positions[9] = k_nan;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -216,6 +217,19 @@ TEST(Displacement, GeneratedAndObjectCoordinatesOfTheMovedSurface) {
         run_program(*view.materials[0].emission, chunk, out, *scratch);
         EXPECT_NEAR(out.emission[2][0], coordinates[0] == 'G' ? 0.5f : 0.25f, 1e-5f) << coordinates;
     }
+}
+
+TEST(Displacement, ThreadsChangeNothing) {
+    scene::SceneDesc desc =
+        scene_of(grid(60, true), sloped(scene::DisplacementMethod::displacement, "ShaderNodeBsdfDiffuse"));
+    desc.settings.threads = 1;
+    const auto one = built(desc);
+    desc.settings.threads = 2;
+    const auto two = built(desc);
+    const std::size_t count = 3 * std::size_t{61} * 61;
+    const float *a = one.view().geometry.positions, *b = two.view().geometry.positions;
+    EXPECT_TRUE(std::equal(a, a + count, b));
+    EXPECT_NE(a[count - 1], 0.0f);
 }
 
 TEST(Displacement, OffsetsThatAreNotFiniteLeaveTheVertex) {
