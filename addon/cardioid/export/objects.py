@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from . import compat, hair, light, mesh, names, needs, pointcloud, strands, values
+from .instance_attributes import InstanceAttributes
 from .material import Materials
 from .options import ExportCancelled, ExportOptions
 
@@ -37,6 +38,7 @@ class Objects:
         self._frame = depsgraph.scene_eval.frame_current_final
         self._render = depsgraph.mode == "RENDER"
         self._eye = eye
+        self._attributes = InstanceAttributes()
         self._meshes: dict[tuple[Any, ...], int] = {}
         self._kinds: dict[tuple[int, int, int, str], _Kind | None] = {}
         self._told: set[str] = set()
@@ -82,7 +84,7 @@ class Objects:
             desc["random"] = names.unit_random(instance.random_id)
             desc["dupli_generated"] = [0.5 * v - 0.5 for v in instance.orco]
             desc["dupli_uv"] = list(instance.uv)
-        found = values.of_instance(instance, kind.needs, self._frame)
+        found = values.of_instance(instance, kind.needs, self._frame, self._attributes)
         if found:
             desc["values"] = found
         self._scene.add_instance(desc)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from numbers import Real
 from typing import Any
 
+from .instance_attributes import InstanceAttributes
 from .names import unit_hash
 from .needs import Needs
 
@@ -17,9 +18,9 @@ Color = list[float]
 NOWHERE: Color = [0.0, 0.0, 0.0, 0.0]
 
 
-def of_instance(instance: Any, needs: Needs, frame: float) -> list[dict[str, Any]]:
+def of_instance(instance: Any, needs: Needs, frame: float, attributes: InstanceAttributes) -> list[dict[str, Any]]:
     """InstanceDesc.values of one step of `depsgraph.object_instances`."""
-    found = [{"name": f"{source}:{name}", "value": _lookup(instance, name, source == "instancer")}
+    found = [{"name": f"{source}:{name}", "value": _lookup(instance, name, source == "instancer", attributes)}
              for source, name in sorted(needs.values) if name]
     if needs.particles:
         found += _particle(instance, frame)
@@ -31,10 +32,13 @@ def of_view_layer(scene: Any, layer: Any, name: str) -> Color:
     return _first((layer, scene, scene.world), name)
 
 
-def _lookup(instance: Any, name: str, instancer: bool) -> Color:
+def _lookup(instance: Any, name: str, instancer: bool, attributes: InstanceAttributes) -> Color:
     owners = []
     if instancer and instance.is_instance:
         system = instance.particle_system
+        own = attributes.find(instance, name)
+        if own is not None:
+            return own
         owners += [system.settings if system else None, instance.parent]
     return _first((*owners, instance.object, instance.object.data), name)
 

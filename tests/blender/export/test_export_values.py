@@ -82,6 +82,29 @@ def test_instancer_comes_first_and_falls_back_to_the_object():
         assert by["instancer:shared"][0] == 2 and by["instancer:own"][0] == 3
 
 
+@pytest.mark.skipif(not hasattr(bpy.types.Object, "evaluated_geometry"), reason="can be read since 4.5")
+def test_instance_attribute_of_geometry_nodes():
+    grain, tree = placed("Grain")
+    attribute("INSTANCER", "shade", tree)
+    host = add(quad("Host"))
+    group = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    group.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
+    group.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
+    kinds = ("NodeGroupInput", "GeometryNodeInstanceOnPoints", "GeometryNodeObjectInfo",
+             "GeometryNodeStoreNamedAttribute", "GeometryNodeInputIndex", "NodeGroupOutput")
+    begin, scatter, info, store, index, end = (group.nodes.new(kind) for kind in kinds)
+    info.inputs["Object"].default_value, info.inputs["As Instance"].default_value = grain, True
+    store.domain, store.inputs["Name"].default_value = "INSTANCE", "shade"
+    for first, second in ((begin.outputs[0], scatter.inputs["Points"]),
+                          (info.outputs["Geometry"], scatter.inputs["Instance"]),
+                          (scatter.outputs[0], store.inputs["Geometry"]), (index.outputs[0], store.inputs["Value"]),
+                          (store.outputs[0], end.inputs[0])):
+        group.links.new(first, second)
+    host.modifiers.new("Nodes", "NODES").node_group = group
+    found = [i["values"][0]["value"] for i in export().scene.instances if "dupli_uv" in i]
+    assert sorted(found) == [[n, n, n, 1] for n in range(4)]
+
+
 def test_view_layer_looks_in_layer_scene_and_world(scene):
     _, tree = placed()
     for name in ("a", "b", "c", "d"):
