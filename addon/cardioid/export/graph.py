@@ -45,19 +45,33 @@ class GraphWalk:
     def run(self) -> dict[str, Any]:
         """The dictionary of docs/python-api.md; without a surface when there is no active output."""
         graph: dict[str, Any] = {"nodes": self._nodes, "surface": None, "volume": None, "displacement": None}
-        output = self._root.tree.get_output_node("CYCLES")
+        output, place = self._output(self._root)
         if output is None:
             self._warn(f"{self._owner}: the node tree has no active output")
             return self._never_empty(graph)
         for socket in output.inputs:
             slot = socket.identifier.lower()
             if slot in graph:
-                found = self._resolve(socket, self._root)
+                found = self._resolve(socket, place)
                 graph[slot] = [found["node"], found["socket"]] if isinstance(found, dict) else None
         while self._open:
             index, node, place = self._open.pop()
             self._nodes[index]["inputs"] = self._inputs(node, place)
         return self._never_empty(graph)
+
+    def _output(self, place: _Place) -> tuple[Any, _Place]:
+        """The active output and where it stands: Cycles takes one inside a group too."""
+        output = place.tree.get_output_node("CYCLES")
+        if output is not None:
+            return output, place
+        for node in place.tree.nodes:
+            if node.type == "GROUP" and not node.mute and node.node_tree is not None:
+                inside = self._child(node, place)
+                if inside is not None:
+                    output, found = self._output(inside)
+                    if output is not None:
+                        return output, found
+        return None, place
 
     def _never_empty(self, graph: dict[str, Any]) -> dict[str, Any]:
         """A tree without a shader is black; a graph without nodes would stand for a material without a tree."""

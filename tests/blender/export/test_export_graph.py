@@ -167,6 +167,17 @@ def place_group(tree, group, name="Use"):
     return use
 
 
+def test_an_output_inside_of_a_group_counts(tree):
+    tree.nodes.remove(tree.nodes["Out"])
+    group = bpy.data.node_groups.new("Whole", "ShaderNodeTree")
+    glossy = node(group, "ShaderNodeEmission", "Inside")
+    group.links.new(glossy.outputs[0], node(group, "ShaderNodeOutputMaterial").inputs["Surface"])
+    place_group(tree, group)
+    found = graph()
+    assert [n["name"] for n in found["nodes"]] == ["Inside"]
+    assert found["surface"][0] == 0
+
+
 def test_groups_are_inlined_each_time(tree):
     group = group_tree()
     gamma = node(group, "ShaderNodeGamma", "Inside")
