@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs inside Blender: a sheet as a scene. Balls far apart before an orthographic camera, under a sky with a small sun
-and a small area lamp; nothing is seen behind them, so that a cell's mean is its ball's."""
+and a small area lamp; nothing is seen behind them (but behind media), so that a cell's mean is its ball's."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def build(name: str, scene: bpy.types.Scene) -> list[str]:
     camera = common.camera((0, -20, 0), (0, 0, 0), 50.0)
     camera.data.type, camera.data.ortho_scale = "ORTHO", max(columns, rows)
     scene.render.resolution_x, scene.render.resolution_y = columns * CELL, rows * CELL
-    scene.render.film_transparent = True
+    scene.render.film_transparent = name != "volume"  # what a medium absorbs is seen before the sky
     scene.cycles.max_bounces = scene.cycles.transmission_bounces = scene.cycles.glossy_bounces = 12
     scene.cycles.volume_bounces = scene.cycles.diffuse_bounces = scene.cycles.transparent_max_bounces = 12
     return [ball.label for ball in placed]
