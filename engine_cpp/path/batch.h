@@ -55,7 +55,8 @@ inline constexpr int k_state_shift = 8;
 inline constexpr int k_layer_shift = 14;
 inline constexpr std::int32_t k_flag_last = 1 << 12;        ///< only emission counts at the next surface
 inline constexpr std::int32_t k_flag_background = 1 << 13;  ///< nothing but transparency since the camera
-inline constexpr std::int32_t k_flag_after_diffuse = 1 << 24;  ///< some bounce was diffuse: no walks under surfaces any more
+inline constexpr std::int32_t k_flag_after_diffuse =
+    1 << 24;  ///< some bounce was diffuse: no walks under surfaces any more
 /// Photons: scene::Visibility bits of what the segment came from; lobes at its far end that it is hidden from do not see it.
 inline constexpr int k_visibility_shift = 16;
 
@@ -70,10 +71,10 @@ struct alignas(64) HitState {
 struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
-    bool own_normals = false;    ///< lobes may have normals of their own (bump, normal maps)
-    bool all_sides = false;      ///< light from below the smooth normal's horizon counts: transmission, bump
-    bsdf::Lobe* lobe = nullptr;  ///< `lobes` of them
-    Row* pick = nullptr;         ///< probability of each lobe, `lobes` rows
+    bool own_normals = false;        ///< lobes may have normals of their own (bump, normal maps)
+    bool all_sides = false;          ///< light from below the smooth normal's horizon counts: transmission, bump
+    bsdf::Lobe* lobe = nullptr;      ///< `lobes` of them
+    Row* pick = nullptr;             ///< probability of each lobe, `lobes` rows
     MediaRecord* media = nullptr;    ///< around the vertices; with SceneView::has_volumes only
     MediumRecord* medium = nullptr;  ///< the vertices are in a medium: no lobes, no normals
     bool boundary = false;           ///< the surface is nothing but the bounds of a medium
@@ -251,7 +252,7 @@ struct alignas(64) Scratch {
     nodes::SurfaceOutput surface;
     nodes::Scratch registers;
     nodes::RayService node_rays;  ///< of the scene that is traced
-    PathInts order;  ///< paths sorted by material
+    PathInts order;               ///< paths sorted by material
     Subsurface walks, disks;
     SubsurfaceExit exits;
     Scatterings scatterings;

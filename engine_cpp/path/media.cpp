@@ -81,7 +81,8 @@ MediumLanes medium_at(Walk& walk, const MediaLanes& media, const ShadedPoint& at
     if (walk.scene.materials[world].volume && any(active)) {
         ShadedPoint point = at;
         point.instance = Int(-1);
-        add_medium(sum, total, volume_points(walk, world, point, active, std::countr_zero(bits(active))), choice, active);
+        add_medium(sum, total, volume_points(walk, world, point, active, std::countr_zero(bits(active))), choice,
+                   active);
     }
     for (int k = 0; k < path::k_media; ++k) {
         const Mask filled = active & (media.material[k] >= Int(0));
@@ -122,7 +123,8 @@ Float medium_step(const trace::SceneView& scene, const MediaLanes& media, Mask a
     return step;
 }
 
-Spectrum transmittance(Walk& walk, const MediaLanes& media, Vec3 o, Vec3 d, Float t0, Float t1, Int number, Mask active) {
+Spectrum transmittance(Walk& walk, const MediaLanes& media, Vec3 o, Vec3 d, Float t0, Float t1, Int number,
+                       Mask active) {
     active &= in_medium(walk.scene, media) & (t1 > t0);
     Spectrum depth(0.0f);
     if (none(active)) return Spectrum(1.0f);

@@ -84,7 +84,8 @@ Float medium_step(const trace::SceneView& scene, const MediaLanes& media, Mask a
 inline constexpr int k_most_steps = 1024;
 
 /// What reaches t1 from t0. `number`: random bits of the ray.
-Spectrum transmittance(Walk& walk, const MediaLanes& media, Vec3 o, Vec3 d, Float t0, Float t1, Int number, Mask active);
+Spectrum transmittance(Walk& walk, const MediaLanes& media, Vec3 o, Vec3 d, Float t0, Float t1, Int number,
+                       Mask active);
 
 /// Media around points: a ray upward counts what it leaves, as in Cycles.
 MediaLanes media_around(const trace::SceneView& scene, Vec3 p, Mask active);

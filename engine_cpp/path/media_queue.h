@@ -32,7 +32,7 @@ struct alignas(64) MediaRecord {
     std::int32_t instance[k_media][k_chunk], material[k_media][k_chunk];
     std::int32_t surface_instance[k_chunk], backfacing[k_chunk];
     std::int32_t scatterings[k_chunk];  ///< in media, of the path so far
-    int surface_material = -1;  ///< that has a medium; -1: light that is sent through stays in the same media
+    int surface_material = -1;          ///< that has a medium; -1: light that is sent through stays in the same media
 };
 
 }  // namespace cardioid::path

@@ -28,7 +28,9 @@ void Tracer::scatter_medium_chunk(const std::int32_t* list, int n) {
     const path::Scatterings& q = scratch.scatterings;
     for (int i = 0; i < n; i += W) {
         const Int at = load(list + i), ray = gather(q.ray, at);
-        const auto vec = [&](const auto& rows) { return Vec3{gather(rows[0], at), gather(rows[1], at), gather(rows[2], at)}; };
+        const auto vec = [&](const auto& rows) {
+            return Vec3{gather(rows[0], at), gather(rows[1], at), gather(rows[2], at)};
+        };
         const Vec3 nothing{0.0f, 0.0f, 0.0f}, tp = vec(q.throughput);
         cardioid::CD_ISA_NS::store3(chunk->position, i, vec(q.position));
         cardioid::CD_ISA_NS::store3(chunk->normal_geometric, i, nothing);
@@ -60,8 +62,9 @@ void Tracer::send_on_from_medium(const path::VertexChunk& chunk, int i, Int ray,
     const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
     const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));
     const Vec2 chance = sample_pair(seed, index, event_dimension(event, pair_chance));
-    const PhaseSample s = sample_phases(load(chunk.medium->kind + i), cardioid::CD_ISA_NS::load3(chunk.medium->parameter, i),
-                                        cardioid::CD_ISA_NS::load3(chunk.wo, i), u, lanes);
+    const PhaseSample s =
+        sample_phases(load(chunk.medium->kind + i), cardioid::CD_ISA_NS::load3(chunk.medium->parameter, i),
+                      cardioid::CD_ISA_NS::load3(chunk.wo, i), u, lanes);
 
     const Int state = state_in_medium(state_of(flags)), since_d = scatterings_since_d(flags);
     const Int layer = select(since_d > Int(0), min(since_d + Int(1), Int(path::k_layers)), Int(0));
@@ -116,7 +119,8 @@ Float eval_medium(const path::MediumRecord& m, int i, Vec3 wo, Vec3 wi, Mask lan
     const Vec3 parameter = load3(m.parameter, i);
     for (int k = 0; k < k_phase_kinds; ++k) {
         const Mask here = lanes & (kind == Int(k));
-        if (any(here)) value = select(here, eval_phase(static_cast<bsdf::PhaseKind>(k), parameter, -dot(wo, wi)), value);
+        if (any(here))
+            value = select(here, eval_phase(static_cast<bsdf::PhaseKind>(k), parameter, -dot(wo, wi)), value);
     }
     return value;
 }

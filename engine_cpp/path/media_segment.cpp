@@ -97,8 +97,9 @@ Walk::Segment Walk::pass_media(int i, Mask lanes) {
         const Spectrum to_there = exp_minus(m.extinction, t);
         const Float pdf_stop = channels_dot(c.probability, m.extinction * to_there);
         const Float pdf_pass = select(scatters, channels_dot(c.probability, through), Float(1.0f));
-        carried *= select(active, select(stops, m.chosen * to_there * (1.0f / max(pdf_stop, 1e-37f)),
-                                         through * (1.0f / max(pdf_pass, 1e-37f))),
+        carried *= select(active,
+                          select(stops, m.chosen * to_there * (1.0f / max(pdf_stop, 1e-37f)),
+                                 through * (1.0f / max(pdf_pass, 1e-37f))),
                           Spectrum(1.0f));
         out.t = select(stops, from + t, out.t);
         out.kind = select(stops, m.kind, out.kind);
@@ -108,8 +109,9 @@ Walk::Segment Walk::pass_media(int i, Mask lanes) {
         active &= ~stops & (to < end) & (max_component(carried) > Float(k_least_throughput));
     }
     out.throughput = Spectrum{tp.x, tp.y, tp.z} * carried;
-    store3(rays.throughput, i, {select(inside, out.throughput.r, tp.x), select(inside, out.throughput.g, tp.y),
-                                select(inside, out.throughput.b, tp.z)});
+    store3(rays.throughput, i,
+           {select(inside, out.throughput.r, tp.x), select(inside, out.throughput.g, tp.y),
+            select(inside, out.throughput.b, tp.z)});
     return out;
 }
 
@@ -117,8 +119,9 @@ void Walk::queue_scattered(int i, const Segment& s) {
     path::Scatterings& q = scratch.scatterings;
     const Mask m = s.scattered & (max_component(s.throughput) > Float(0.0f));
     const Vec3 p = load3(now->origin, i) + load3(now->direction, i) * s.t;
-    const Float values[] = {p.x,   p.y, p.z, s.throughput.r, s.throughput.g, s.throughput.b, s.parameter.x, s.parameter.y,
-                            s.parameter.z, s.t};
+    const Float values[] = {
+        p.x,           p.y,           p.z, s.throughput.r, s.throughput.g, s.throughput.b, s.parameter.x,
+        s.parameter.y, s.parameter.z, s.t};
     float* const rows[] = {q.position[0],   q.position[1],  q.position[2],  q.throughput[0], q.throughput[1],
                            q.throughput[2], q.parameter[0], q.parameter[1], q.parameter[2],  q.length};
     static_assert(sizeof rows / sizeof *rows == sizeof values / sizeof *values);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "path/node_rays.h"
-#include "path/tracer.h"
+#include "path/subsurface.h"
 
 #include <bit>
 
@@ -100,6 +100,13 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
             store(s.transparent_depth + i, to_float(surfaces_passed(gather(rays.transparent, ray))));
         }
     }
+}
+
+void run_surface(Walk& walk, int program, const ShadedPoint& at, Float footprint, nodes::SurfaceOutput& out, Mask here,
+                 int first) {
+    fill_points(walk, program, at, here, first);
+    store(walk.scratch.shading.footprint, select(here, footprint, Float(footprint[first])));
+    run_program(*walk.scene.materials[program].surface, walk.scratch.shading, out, walk.scratch.registers);
 }
 
 Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active) {

@@ -125,7 +125,8 @@ void Tracer::record_media(path::VertexChunk& chunk, int i, Int ray) {
     store(media.backfacing + i, select(load(scratch.shading.backfacing + i) > Float(0.5f), Int(1), Int(0)));
 }
 
-void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask scatters, Float chance, Spectrum passed) {
+void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask scatters, Float chance,
+                     Spectrum passed) {
     const scene::Settings& settings = scene.settings;
     const path::RayState& rays = *now;
     const Int flags = load(chunk.flags + i), depth = load(chunk.depth + i), transparent = gather(rays.transparent, ray);
@@ -151,8 +152,9 @@ void Tracer::send_on(path::VertexChunk& chunk, int i, Int ray, Choice& c, Mask s
     c.valid &= chance < survive;
     carried = carried * (1.0f / max(survive, 1e-37f));
 
-    const Mask passes = c.through & (chunk.boundary ? bounds_passed(transparent) < Int(k_most_bounds)
-                                                    : surfaces_passed(transparent) < Int(settings.max_transparent_bounces));
+    const Mask passes =
+        c.through & (chunk.boundary ? bounds_passed(transparent) < Int(k_most_bounds)
+                                    : surfaces_passed(transparent) < Int(settings.max_transparent_bounces));
     const Mask go = c.valid | passes;
     if (none(go)) return;
     // Rough specular lobes after a D are not connected to lamps, so that their hits count in full.

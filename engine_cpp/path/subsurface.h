@@ -138,4 +138,8 @@ inline void append_exit(path::SubsurfaceExit& to, const WalkLanes& w, Vec3 posit
     to.n += compress_store(to.kind + to.n, w.kind, m);
 }
 
+/// The surface of one program at the lanes of `here`, into `out`, which has room for its lobes; `first` is one of them.
+void run_surface(Walk& walk, int program, const ShadedPoint& at, Float footprint, nodes::SurfaceOutput& out, Mask here,
+                 int first);
+
 }  // namespace cardioid::CD_ISA_NS

@@ -3,6 +3,9 @@
 // vertex of the path (spec 1).
 #include "path/bsdf_choice.h"
 #include "path/media.h"
+#include "path/subsurface.h"
+
+#include <bit>
 
 namespace cardioid::CD_ISA_NS {
 
@@ -11,6 +14,55 @@ namespace {
 /// Random dimensions of exits: those of events that no path reaches.
 constexpr std::int32_t k_exit_event = 1 << 16;
 
+/// Normals that bump and normal maps make where walks came out.
+void bend_exits(Tracer& t) {
+    path::Scratch& scratch = t.scratch;
+    path::SubsurfaceExit& e = scratch.exits;
+    for (int i = 0; i < e.n; i += W) {
+        const Mask lanes = first_lanes(e.n - i);
+        ShadedPoint at;
+        const auto vec = [&](const auto& rows) {
+            return Vec3{load(rows[0] + i), load(rows[1] + i), load(rows[2] + i)};
+        };
+        at.position = vec(e.position);
+        at.normal_geometric = vec(e.normal_geometric);
+        at.normal = at.wo = vec(e.normal);
+        at.instance = select(lanes, load(e.instance + i), Int(0));
+        at.triangle = select(lanes, load(e.triangle + i), Int(0));
+        at.u = load(e.u + i);
+        at.v = load(e.v + i);
+        const Int material = material_of(t.scene, at.instance, at.triangle),
+                  ray = select(lanes, load(e.ray + i), Int(0));
+        const Float width =
+            footprint(gather(t.now->width, ray), gather(t.now->spread, ray), gather(scratch.hits.t, ray));
+        Vec3 bent = at.normal;
+        for (std::uint32_t left = bits(lanes); left != 0;) {
+            const int first = std::countr_zero(left), id = material[first];
+            const Mask here = lanes & (material == Int(id));
+            left &= ~bits(here);
+            const nodes::ProgramInfo& info = t.scene.materials[id].info;
+            if (!info.own_normals || !info.has_subsurface) continue;
+            const std::size_t mark = scratch.arena.mark();
+            nodes::SurfaceOutput& out = scratch.surface;
+            out.lobe = scratch.arena.allocate<bsdf::Lobe>(static_cast<std::size_t>(info.lobes));
+            if (!out.lobe) continue;
+            run_surface(t, id, at, width, out, here, first);
+            Vec3 sum{0.0f, 0.0f, 0.0f};
+            for (int k = 0; k < out.lobes; ++k) {
+                if (!bsdf::is_subsurface(out.lobe[k].kind)) continue;
+                const Float weight = max(average(load_rgb(out.lobe[k].weight, 0)), 0.0f);
+                sum = sum + cardioid::CD_ISA_NS::load3(out.lobe[k].normal, 0) * weight;
+            }
+            bent = select(here & (length_squared(sum) > Float(0.0f)), normalize(sum), bent);
+            scratch.arena.reset(mark);
+        }
+        store(e.normal[0] + i, bent.x);
+        store(e.normal[1] + i, bent.y);
+        store(e.normal[2] + i, bent.z);
+    }
+}
+
+/// A Lambert lobe around the wo of the chunk.
 void fill_lambert(path::VertexChunk& chunk, bool fresnel) {
     bsdf::Lobe& lobe = chunk.lobe[0];
     // Principled v1's exit is its diffuse lobe seen from above, where the entry's Fresnel is none.
@@ -19,7 +71,7 @@ void fill_lambert(path::VertexChunk& chunk, bool fresnel) {
     lobe.preserve_energy = false;
     for (int i = 0; i < chunk.n; i += W) {
         store_rgb(lobe.weight, i, Spectrum(1.0f));
-        cardioid::CD_ISA_NS::store3(lobe.normal, i, cardioid::CD_ISA_NS::load3(chunk.normal, i));
+        cardioid::CD_ISA_NS::store3(lobe.normal, i, cardioid::CD_ISA_NS::load3(chunk.wo, i));
         store(lobe.roughness + i, Float(0.0f));
         store(chunk.pick[0] + i, Float(1.0f));
     }
@@ -28,6 +80,7 @@ void fill_lambert(path::VertexChunk& chunk, bool fresnel) {
 }  // namespace
 
 void Tracer::leave_subsurface() {
+    bend_exits(*this);
     std::int32_t list[k_chunk + 16];
     for (const bool fresnel : {false, true}) {
         int n = 0;

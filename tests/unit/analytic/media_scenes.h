@@ -62,7 +62,8 @@ inline scene::MeshDesc box(Float3 low, Float3 high) {
         m.positions.push_back((k & 2) != 0 ? high.y : low.y);
         m.positions.push_back((k & 4) != 0 ? high.z : low.z);
     }
-    m.triangles = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+    m.triangles = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                   2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
     m.generated_min = low;
     m.generated_size = high - low;
     return m;
