@@ -139,6 +139,9 @@ class Objects:
     def _tell_unsupported(self, obj: Any, owner: Any) -> None:
         if obj.is_shadow_catcher or owner.is_shadow_catcher:
             self._tell(f"Object “{obj.name}”: shadow catchers are not supported, rendered as it is")
+        if any(m.type == "FLUID" and m.fluid_type == "DOMAIN" and m.domain_settings.domain_type == "GAS"
+               for m in obj.modifiers):
+            self._tell(f"Object “{obj.name}”: smoke and fire are volume grids, which are not supported")
         if compat.has_light_linking(obj) or compat.has_light_linking(owner):
             self._tell(f"Object “{obj.name}”: light linking is not supported, all lights reach it")
 

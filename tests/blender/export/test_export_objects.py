@@ -162,6 +162,13 @@ def test_unsupported_objects_are_named(kind, collection):
     assert not exported.scene.instances
 
 
+def test_smoke_is_named():
+    modifier = add(quad(), "Chimney").modifiers.new("Fluid", "FLUID")
+    modifier.fluid_type = "DOMAIN"
+    modifier.domain_settings.domain_type = "GAS"
+    assert any("Chimney" in w and "smoke" in w for w in export().warnings)
+
+
 @pytest.mark.parametrize(("name", "number"), [("Cube", 0x502A11DF), ("Sphere.001", 0x43EA4365), ("Würfel", 0x071854B1)])
 def test_random_number_of_a_plain_object_is_cycles_hash(name, number):
     # the numbers come from Cycles' own hash_uint2(hash_string(name), 0), compiled and run
