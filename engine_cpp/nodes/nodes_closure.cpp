@@ -191,6 +191,11 @@ constexpr SupportByVersion k_multi_34 = {Support::approximated, Support::same, S
 constexpr const char* k_multi =
     "3.4's Multiscatter GGX is compensated by albedo as in 4.0 and later, not walked between facets";
 
+constexpr const char* k_glossy =
+    "GGX and Beckmann are the same; Ashikhmin-Shirley lacks light that Cycles adds at grazing angles; 3.4's "
+    "Multiscatter GGX is "
+    "compensated by albedo";
+
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeMixShader", nullptr, mix_shader, Support::same, ""},
     {"ShaderNodeAddShader", nullptr, add_shader, Support::same, ""},
@@ -200,15 +205,19 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeHoldout", nullptr, holdout, Support::same, ""},
     {"ShaderNodeBsdfDiffuse", nullptr, diffuse, Support::same, ""},
     {"ShaderNodeBsdfTranslucent", nullptr, translucent, Support::same, ""},
-    {"ShaderNodeBsdfGlossy", nullptr, glossy, k_multi_34, k_multi},
-    {"ShaderNodeBsdfAnisotropic", nullptr, glossy, k_multi_34, k_multi},
+    {"ShaderNodeBsdfGlossy", nullptr, glossy, Support::approximated, k_glossy},
+    {"ShaderNodeBsdfAnisotropic", nullptr, glossy, Support::approximated, k_glossy},
     {"ShaderNodeBsdfGlass", nullptr, glass, k_multi_34, k_multi},
     {"ShaderNodeBsdfRefraction", nullptr, refraction, Support::same, ""},
     {"ShaderNodeBsdfMetallic", nullptr, metallic, since_45(Support::same), ""},
     {"ShaderNodeBsdfVelvet", nullptr, velvet, only_34(Support::same), ""},
     {"ShaderNodeBsdfSheen", nullptr, sheen, since_45(Support::same), ""},
     {"ShaderNodeSubsurfaceScattering", nullptr, subsurface, Support::same, ""},
-    {"ShaderNodeBsdfToon", nullptr, toon, Support::same, ""},
+    {"ShaderNodeBsdfToon",
+     nullptr,
+     toon,
+     {Support::approximated, Support::same, Support::same, Support::same},
+     "3.4 fades Smooth by another angle for indirect light; ours is the same for all"},
 };
 
 }  // namespace

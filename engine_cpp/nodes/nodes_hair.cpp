@@ -132,12 +132,11 @@ void principled_hair(NodeContext& c, Ref weight) {
 }
 
 constexpr NodeType k_nodes[] = {
-    {"ShaderNodeBsdfHair", nullptr, hair, Support::same, ""},
-    {"ShaderNodeBsdfHairPrincipled",
-     nullptr,
-     principled_hair,
-     {Support::same, Support::approximated, Support::approximated, Support::approximated},
-     "the model Huang is rendered by Chiang's, with its factors of R, TT and TRT; sections are round"},
+    {"ShaderNodeBsdfHair", nullptr, hair, Support::approximated,
+     "lamps light what lies behind the shading normal too; Cycles leaves that to indirect light"},
+    {"ShaderNodeBsdfHairPrincipled", nullptr, principled_hair, Support::approximated,
+     "Coat is a little darker; the model Huang is rendered by Chiang's, with its factors of R, TT and TRT and round "
+     "sections"},
 };
 
 }  // namespace

@@ -352,9 +352,10 @@ constexpr NodeType k_nodes[] = {
     {"ShaderNodeBsdfPrincipled",
      nullptr,
      principled,
-     {Support::approximated, Support::same, Support::same, Support::same},
-     "3.4's Multiscatter GGX is compensated by albedo as in 4.0 and later; its Clearcoat is sampled by its own "
-     "density"},
+     {Support::approximated, Support::approximated, Support::same, Support::same},
+     "3.4: Multiscatter GGX is compensated by albedo, Clearcoat is sampled by its own density; 4.5: thin films have "
+     "the "
+     "colours of 5.0"},
 };
 
 }  // namespace
