@@ -26,7 +26,7 @@ from . import (
 )
 from .messages import RenderProblem
 from .render_result import Target
-from .resolve import resolve
+from .resolve import resolve, unsupported
 
 
 def render(engine: bpy.types.RenderEngine, depsgraph: bpy.types.Depsgraph) -> None:
@@ -81,7 +81,7 @@ def _render_view(engine: bpy.types.RenderEngine, module: ModuleType, depsgraph: 
     if exported is None:
         return
     if not engine.is_preview:
-        messages.warn(engine, exported.warnings)
+        messages.warn(engine, exported.warnings + unsupported(scene, layer))
         if arguments.export:
             _save_scene(module, exported, arguments.export.replace("#", str(scene.frame_current)))
     shape = frame_size.shape(scene.render)

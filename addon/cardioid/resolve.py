@@ -114,7 +114,34 @@ def _engine_settings(scene: bpy.types.Scene, values: dict[str, Any]) -> dict[str
     engine["memory_limit"] = values["memory_limit"] * k_megabyte
     engine["transparent_film"] = scene.render.film_transparent
     engine["ocio_config"] = ocio_config()
+    engine.update(_fast_gi(scene))
     return engine
+
+
+def _fast_gi(scene: bpy.types.Scene) -> dict[str, Any]:
+    """Cycles' Fast GI as it stands in the scene and its world. Only Replace; `unsupported` tells of Add."""
+    bounces = cycles_values.value(scene, "ao_bounces_render", 1)
+    light = getattr(scene.world, "light_settings", None)
+    replaces = cycles_values.value(scene, "fast_gi_method", "REPLACE") in ("REPLACE", 0)
+    used = cycles_values.value(scene, "use_fast_gi", False) and replaces and bounces > 0 and light is not None
+    return {"fast_gi": "replace" if used else "off", "fast_gi_bounces": max(bounces, 1),
+            "fast_gi_factor": light.ao_factor if light else 1.0, "fast_gi_distance": light.distance if light else 10.0}
+
+
+def unsupported(scene: bpy.types.Scene, view_layer: bpy.types.ViewLayer) -> list[str]:
+    """Sentences for settings of Cycles that change its picture and that are not followed."""
+    told = []
+    if cycles_values.value(scene, "use_fast_gi", False) and cycles_values.value(
+            scene, "fast_gi_method", "REPLACE") in ("ADD", 1):
+        told.append("Fast GI Approximation: Add is not supported, no light is added")
+    if scene.render.use_motion_blur and view_layer.use_motion_blur:
+        told.append("Motion blur is not supported, the frame is rendered as it stands")
+    if scene.render.use_simplify:
+        if any(cycles_values.value(scene, name, False) for name in ("use_camera_cull", "use_distance_cull")):
+            told.append("Simplify: camera and distance culling are not followed, all objects are rendered")
+        if cycles_values.value(scene, "texture_limit_render", "OFF") not in ("OFF", 0):
+            told.append("Simplify: the texture limit is not followed, textures have their full size")
+    return told
 
 
 def ocio_config() -> str:

@@ -71,8 +71,7 @@ Float triangle_emission_density(const LightData& lights, Int instance, Int trian
 Float environment_emission_density(const LightData& lights, Vec3 p, Vec3 d, Mask active) {
     const int emitter = lights.environment.emitter;
     if (emitter < 0 || !(lights.emission_power[emitter] > 0)) return 0.0f;
-    const Vec3 none{0.0f, 0.0f, 0.0f};
-    const Float directions = environment_density(lights, {none, none}, d);
+    const Float directions = sent_direction_density(lights, d);
     return select(active, directions * section_density_at(lights, p, d), Float(0.0f));
 }
 

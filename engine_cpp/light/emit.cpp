@@ -175,8 +175,7 @@ void emit_triangles(const LightData& lights, Int emitter, Cube u, Mask lanes, Ph
 
 void emit_world(const LightData& lights, Cube u, Mask lanes, PhotonRay& ray) {
     const light::EnvironmentData& env = lights.environment;
-    const Vec3 none{0.0f, 0.0f, 0.0f};
-    const EnvironmentSample sample = sample_environment(lights, {none, none}, u.direction.x, u.direction.y);
+    const EnvironmentSample sample = sample_sent_direction(lights, u.direction.x, u.direction.y);
     emit_from_afar(lights, -sample.wi, sample.pdf, {env.color[0], env.color[1], env.color[2]}, u, lanes, ray);
     ray.program = select(lanes, Int(env.program), ray.program);
     ray.visibility = select(lanes, Int(env.visibility), ray.visibility);

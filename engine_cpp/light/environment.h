@@ -16,4 +16,8 @@ EnvironmentSample sample_environment(const light::LightData& lights, LightReceiv
 /// The same density for a given unit direction.
 Float environment_density(const light::LightData& lights, LightReceiver at, Vec3 d);
 
+/// Directions that photons come from, and their density.
+EnvironmentSample sample_sent_direction(const light::LightData& lights, Float u, Float v);
+Float sent_direction_density(const light::LightData& lights, Vec3 d);
+
 }  // namespace cardioid::CD_ISA_NS

@@ -119,9 +119,26 @@ double write_cdf(const double* weight, int n, float* cdf) {
     return total;
 }
 
+/// Weights are what the brightness has over `even`, and `floor` everywhere.
+DirectionCdf make_cdf(const Grid& g, double floor, double even) {
+    DirectionCdf out;
+    const auto columns = static_cast<std::size_t>(g.width), rows = static_cast<std::size_t>(g.height);
+    out.conditional.resize((columns + 1) * rows);
+    out.marginal.resize(rows + 1);
+    std::vector<double> row(columns), row_weight(rows);
+    for (int y = 0; y < g.height; ++y) {
+        for (int x = 0; x < g.width; ++x) row[static_cast<std::size_t>(x)] = std::max(g.at(x, y) - even, 0.0) + floor;
+        const auto i = static_cast<std::size_t>(y);
+        row_weight[i] = write_cdf(row.data(), g.width, out.conditional.data() + i * (columns + 1)) *
+                        (border_z(g, y) - border_z(g, y + 1));
+    }
+    write_cdf(row_weight.data(), g.height, out.marginal.data());
+    return out;
+}
+
 }  // namespace
 
-EnvironmentMap make_environment_map(const EnvironmentEval& eval, int resolution) {
+EnvironmentMap make_environment_map(const EnvironmentEval& eval, int resolution, bool compensate) {
     Grid g{resolution, std::max(resolution / 2, 1), {}};
     g.value.assign(static_cast<std::size_t>(g.width) * static_cast<std::size_t>(g.height), 0.0f);
     Evaluator evaluator(eval);
@@ -137,20 +154,12 @@ EnvironmentMap make_environment_map(const EnvironmentEval& eval, int resolution)
     map.width = g.width;
     map.height = g.height;
     map.irradiance = static_cast<float>(k_pi * mean);
-    const auto columns = static_cast<std::size_t>(g.width), rows = static_cast<std::size_t>(g.height);
-    map.conditional.resize((columns + 1) * rows);
-    map.marginal.resize(rows + 1);
-    map.row_z.resize(rows + 1);
-    std::vector<double> row(columns), row_weight(rows);
-    for (int y = 0; y < g.height; ++y) {
-        for (int x = 0; x < g.width; ++x) row[static_cast<std::size_t>(x)] = g.at(x, y) + k_floor * mean;
-        const auto i = static_cast<std::size_t>(y);
-        row_weight[i] = write_cdf(row.data(), g.width, map.conditional.data() + i * (columns + 1)) *
-                        (border_z(g, y) - border_z(g, y + 1));
-        map.row_z[i] = static_cast<float>(border_z(g, y));
-    }
-    map.row_z[rows] = -1;
-    write_cdf(row_weight.data(), g.height, map.marginal.data());
+    map.row_z.resize(static_cast<std::size_t>(g.height) + 1);
+    for (int y = 0; y < g.height; ++y) map.row_z[static_cast<std::size_t>(y)] = static_cast<float>(border_z(g, y));
+    map.row_z.back() = -1;
+    map.sent = make_cdf(g, k_floor * mean, 0);
+    // No floor where there are partners: cells far under the sun's share would be narrower than a float can tell.
+    map.seen = compensate ? make_cdf(g, 0, mean) : make_cdf(g, k_floor * mean, 0);
     return map;
 }
 

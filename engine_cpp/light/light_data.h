@@ -118,6 +118,12 @@ struct NodeArrays {
 /// At most this many entries are weighed first: the top of the tree of lamps and triangles, that of the suns, the world.
 inline constexpr int k_max_entries = 2 * k_tree_width + 1;
 
+/// Cumulative distributions over the cells of the world's grid.
+struct DirectionTable {
+    const float* conditional = nullptr;  ///< (width + 1) per row, 0 … 1
+    const float* marginal = nullptr;     ///< height + 1, 0 … 1
+};
+
 /// World: one colour, or a latitude-longitude grid whose rows are uniform in the polar angle and cells uniform in solid angle.
 struct EnvironmentData {
     std::int32_t emitter = -1;  ///< -1: the world is not sampled
@@ -127,9 +133,9 @@ struct EnvironmentData {
     std::int32_t visibility = 63;
     std::int32_t max_bounces = 1024;
     int width = 0, height = 0;
-    const float* conditional = nullptr;  ///< (width + 1) per row, 0 … 1
-    const float* marginal = nullptr;     ///< height + 1, 0 … 1
-    const float* row_z = nullptr;        ///< height + 1: z of the row borders, 1 … -1
+    DirectionTable seen;           ///< from receivers, which meet what is evenly bright by their lobes
+    DirectionTable sent;           ///< photons
+    const float* row_z = nullptr;  ///< height + 1: z of the row borders, 1 … -1
 };
 
 /// What photons are aimed at (light/emit.h).

@@ -150,7 +150,7 @@ void LightTable::Storage::add_world(const WorldInput& world) {
     if (world.constant) {
         bounds.energy = k_pi * mean_absolute(world.color);
     } else if (world.eval) {
-        environment = make_environment_map(world.eval, environment_resolution(world));
+        environment = make_environment_map(world.eval, environment_resolution(world), world.compensate);
         bounds.energy = environment.irradiance;
     }
     if (!(bounds.energy > 0) || !std::isfinite(bounds.energy)) return;
@@ -192,8 +192,8 @@ void LightTable::Storage::set_pointers() {
     data.lamp_int = lamp_int.data();
     data.triangle = triangle.data();
     data.triangle_int = triangle_int.data();
-    data.environment.conditional = environment.conditional.data();
-    data.environment.marginal = environment.marginal.data();
+    data.environment.seen = {environment.seen.conditional.data(), environment.seen.marginal.data()};
+    data.environment.sent = {environment.sent.conditional.data(), environment.sent.marginal.data()};
     data.environment.row_z = environment.row_z.data();
     data.nodes = {nodes.record.data(), nodes.child.data(), nodes.parent.data()};
     data.leaf_of = leaf_of.data();
@@ -240,8 +240,8 @@ std::int64_t LightTable::memory_bytes() const {
            bytes(s.triangle_int) + bytes(s.leaf_of) + bytes(s.hittable) + bytes(s.triangle_base) +
            bytes(s.triangle_span) + bytes(s.triangle_emitter) + bytes(s.nodes.record) + bytes(s.nodes.child) +
            bytes(s.nodes.parent) + bytes(s.boxes.box) + bytes(s.boxes.first) + bytes(s.boxes.count) +
-           bytes(s.boxes.lamps) + bytes(s.environment.conditional) + bytes(s.environment.marginal) +
-           bytes(s.environment.row_z);
+           bytes(s.boxes.lamps) + bytes(s.environment.seen.conditional) + bytes(s.environment.seen.marginal) +
+           bytes(s.environment.sent.conditional) + bytes(s.environment.sent.marginal) + bytes(s.environment.row_z);
 }
 
 }  // namespace cardioid::light

@@ -44,6 +44,8 @@ struct WorldInput {
     std::int32_t program = -1;  ///< emission program when not constant
     std::uint8_t visibility = scene::visible_all;
     int max_bounces = 1024;
+    /// Samples leave what is evenly bright to rays that lobes send, which must then count with pdf_environment's MIS weight.
+    bool compensate = true;
 };
 
 /// Asked while a table is built; throws to stop the building.

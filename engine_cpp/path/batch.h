@@ -71,16 +71,22 @@ struct alignas(64) HitState {
 struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
-    bool own_normals = false;        ///< lobes may have normals of their own (bump, normal maps)
-    bool all_sides = false;          ///< light from below the smooth normal's horizon counts: transmission, bump
-    bsdf::Lobe* lobe = nullptr;      ///< `lobes` of them
-    Row* pick = nullptr;             ///< probability of each lobe, `lobes` rows
-    MediaRecord* media = nullptr;    ///< around the vertices; with SceneView::has_volumes only
-    MediumRecord* medium = nullptr;  ///< the vertices are in a medium: no lobes, no normals
-    bool boundary = false;           ///< the surface is nothing but the bounds of a medium
+    bool own_normals = false;            ///< lobes may have normals of their own (bump, normal maps)
+    bool all_sides = false;              ///< light from below the smooth normal's horizon counts: transmission, bump
+    bool dark_glass_reflection = false;  ///< glass reflects nothing to paths that come from a diffuse bounce
+    bool narrows = false;                ///< `narrowing` is there
+    bsdf::Lobe* lobe = nullptr;          ///< `lobes` of them
+    Row* pick = nullptr;                 ///< probability of each lobe, `lobes` rows
+    MediaRecord* media = nullptr;        ///< around the vertices; with SceneView::has_volumes only
+    MediumRecord* medium = nullptr;      ///< the vertices are in a medium: no lobes, no normals
+    bool boundary = false;               ///< the surface is nothing but the bounds of a medium
     Row position[3], normal_geometric[3], normal[3], wo[3], throughput[3], distance;
-    Row gather;  ///< 1 / probability of the D lobes where the path took one for the first time (x_d), otherwise 0
-    Row radius;  ///< of the gather
+    Row gather;     ///< 1 / probability of the D lobes where the path took one for the first time (x_d), otherwise 0
+    Row radius;     ///< of the gather
+    Row narrowing;  ///< angles to the light count as this many times larger (Shadow Terminator, Shading)
+    Row barycentric_u, barycentric_v;  ///< with SceneView::lifts_shadow_rays, as the two rows that follow
+    std::int32_t instance[k_chunk];    ///< -1: shadow rays start at the position
+    std::int32_t triangle[k_chunk];
     std::int32_t path[k_chunk];
     std::int32_t flags[k_chunk];  ///< as RayState, of the arriving ray
     std::int32_t depth[k_chunk];

@@ -31,12 +31,28 @@ inline Float refraction_scale(const bsdf::Lobe& lobe, int i, Vec3 wi, Vec3 ng, b
     return select(dot(wi, ng) < Float(0.0f), 1.0f / (eta * eta), Float(1.0f));
 }
 
+/// Shadow Terminator, Shading Offset: reflected light fades before it comes from the horizon.
+inline Float narrowed(const path::VertexChunk& chunk, const bsdf::Lobe& lobe, int i, Vec3 wi, Vec3 ng) {
+    const Float cosine = dot(wi, load3(lobe.normal, i)), times = load(chunk.narrowing + i);
+    const Float angle = atan2(safe_sqrt(1.0f - cosine * cosine), cosine);
+    Float s, c;
+    sincos(angle * times, s, c);
+    const Float factor = max(c, 0.0f) / select(abs(cosine) > Float(1e-6f), cosine, Float(1e-6f));
+    const Mask shifts = (times > Float(1.0f)) & (dot(wi, ng) > Float(0.0f));
+    return select(shifts, select(angle * times < Float(k_pi), factor, Float(0.0f)), Float(1.0f));
+}
+
 /// Value of a lobe in direction wi for what is carried, f·|cos| with the factors that belong to it.
 /// Flux: the lobe seen from the other end, f(wi → wo)·|cos_s(wo)|·|cos_g(wi)| / |cos_g(wo)| (Veach 1997, 5.3).
 inline Spectrum carried_value(const path::VertexChunk& chunk, const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi, Vec3 ng,
                               Spectrum f_cos, Mask delta, Transport transport, bool physical) {
     const bool bends = chunk.own_normals && bsdf::is_diffuse_kind(lobe.kind);
     if (transport == Transport::radiance) {
+        if (chunk.dark_glass_reflection && lobe.kind == bsdf::LobeKind::ggx_glass) {
+            const Mask after_diffuse = (load(chunk.flags + i) & Int(nodes::ray_diffuse)) != Int(0);
+            f_cos = select(after_diffuse & (dot(wi, ng) > Float(0.0f)), Spectrum(0.0f), f_cos);
+        }
+        if (chunk.narrows) f_cos = f_cos * narrowed(chunk, lobe, i, wi, ng);
         if (bends) f_cos = f_cos * bump_shadow(chunk, lobe, i, wi);
         return f_cos * refraction_scale(lobe, i, wi, ng, physical);
     }

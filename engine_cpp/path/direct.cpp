@@ -3,7 +3,9 @@
 // bounces fill whole packets.
 #include "path/bsdf_choice.h"
 #include "path/emitter_point.h"
+#include "path/fast_gi.h"
 #include "path/media.h"
+#include "path/terminator.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -105,9 +107,16 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     if (none(lit)) return;
 
     if (scene.lights_are_limited) lit &= byte_of(depth, 0) <= light.max_bounces;
-    const Int* visibility = scene.lights_are_limited ? &light.visibility : nullptr;
+    Int seen_by = light.visibility;
+    const bool sky_alone = replaces_bounces(scene.settings) && scene.lights->environment.constant;
+    if (sky_alone) {
+        const Mask sky = light.emitter == Int(scene.lights->environment.emitter);
+        seen_by = select(sky, seen_by & ~short_lobes(scene.settings, depth), seen_by);
+    }
+    const Int* visibility = scene.lights_are_limited || sky_alone ? &seen_by : nullptr;
+    const Vec3 side = scene.lifts_shadow_rays && !chunk.medium ? terminator_side(scene, chunk, i) : ng;
     const BsdfEval f = chunk.medium ? eval_phases(chunk, i, wo, light.wi, visibility, lit)
-                                    : eval_bsdf(chunk, i, wo, light.wi, ng, scene.settings, visibility);
+                                    : eval_bsdf(chunk, i, wo, light.wi, side, scene.settings, visibility);
     lit &= not_black(f.d) | not_black(f.s);
     if (none(lit)) return;
     Spectrum radiance = light.radiance;
@@ -137,7 +146,8 @@ void Tracer::connect(const path::VertexChunk& chunk, int i) {
     const Spectrum arriving = throughput * radiance * (1.0f / max(light.pdf, 1e-37f));
     const Int bounce = byte_of(depth, 0);
     const float clamp_direct = scene.settings.clamp_direct, clamp_indirect = scene.settings.clamp_indirect;
-    const Vec3 origin = offset_origin(p, ng, light.wi, load(chunk.distance + i));
+    const Vec3 from = scene.lifts_shadow_rays && !chunk.medium ? p + shadow_lift(scene, chunk, i, light.wi, lit) : p;
+    const Vec3 origin = offset_origin(from, ng, light.wi, load(chunk.distance + i));
     const Float reach =
         max(max(abs(light.position.x), abs(light.position.y)), max(abs(light.position.z), light.distance));
     // Aimed anew from the moved origin: in the old direction the ray would end behind the emitter and be stopped by it.

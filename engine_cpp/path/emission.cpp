@@ -2,6 +2,7 @@
 // Light that rays found by themselves: emissive surfaces, lamps on the way, the world. MIS against next-event estimation.
 #include "light/emit.h"
 #include "path/emitter_point.h"
+#include "path/fast_gi.h"
 #include "path/media.h"
 
 #include <bit>
@@ -104,8 +105,12 @@ void Tracer::add_lamp_hits() {
         for (int which = walk.next(); which >= 0; which = walk.next()) {
             const LampHit h = intersect_lamp(*scene.lights, which, from, d, t_max, lanes);
             // A ray that passed a transparent surface keeps its origin: lamps before t_min were found already.
-            const Mask hit =
+            Mask hit =
                 h.hit & (h.t >= t_min) & ((seen_by & Int(h.visibility)) != Int(0)) & (bounce <= Int(h.max_bounces));
+            if (replaces_bounces(scene.settings)) {
+                const Mask far = (h.t > Float(scene.settings.fast_gi_distance)) & (h.t < Float(1e30f));
+                hit &= ~(far & is_short_ray(scene.settings, load(rays.depth + i)));
+            }
             if (none(hit)) continue;
             Spectrum radiance = h.radiance;
             if (h.program >= 0) {
@@ -169,7 +174,12 @@ void Tracer::add_world(const std::int32_t* list, int n) {
             radiance = shade_points(*this, nodes::Purpose::emission, Int(scene.world_program), at, shines);
         }
         const Float pdf = gather(rays.pdf, ray);
-        const Mask weigh = shines & (pdf >= Float(0.0f));
+        Mask weigh = shines & (pdf >= Float(0.0f));
+        if (replaces_bounces(scene.settings)) {
+            const Mask brief = is_short_ray(scene.settings, gather(rays.depth, ray));
+            radiance = select(brief, radiance * scene.settings.fast_gi_factor, radiance);
+            if (scene.lights->environment.constant) weigh &= ~brief;
+        }
         Float weight = 1.0f;
         if (any(weigh)) {
             const LightReceiver from{load3(rays.origin, ray), load3(rays.from_normal, ray)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "path/tracer.h"
+#include "path/fast_gi.h"
 
 namespace cardioid::CD_ISA_NS {
 
@@ -14,6 +14,10 @@ void Walk::find_hits(bool coherent, int visibility, bool bounded) {
         ray.d = load3(rays.direction, i);
         ray.t_min = load(rays.t_min + i);
         ray.t_max = bounded ? load(hits.t + i) : Float(1e30f);
+        if (!bounded && visibility == 0 && replaces_bounces(scene.settings)) {
+            const Mask brief = is_short_ray(scene.settings, load(rays.depth + i));
+            ray.t_max = select(brief, Float(scene.settings.fast_gi_distance), ray.t_max);
+        }
         ray.time = 0.0f;
         ray.mask = visibility != 0 ? Int(visibility) : visibility_bit(load(rays.flags + i));
         if (scratch.ray_log)

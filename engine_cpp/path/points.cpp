@@ -81,7 +81,7 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
         const Int flags = gather(rays.flags, ray);
         store(reinterpret_cast<std::int32_t*>(s.ray_flags) + i, flags & Int(k_ray_flags));
         store(s.footprint + i, footprint(gather(rays.width, ray), gather(rays.spread, ray), t));
-        if (info.needs_triangle_frame || info.has_bump) {
+        if (info.needs_triangle_frame || info.has_bump || scene.lifts_shadow_rays) {
             Vec3 e1, e2;
             triangle_edges(scene, instance, triangle, e1, e2);
             cardioid::CD_ISA_NS::store3(s.dp_du, i, e1);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where paths go on from the vertices of a chunk.
 #include "path/bsdf_choice.h"
+#include "path/fast_gi.h"
 #include "path/media.h"
+#include "path/terminator.h"
 #include "trace/curvature.h"
 
 namespace cardioid::CD_ISA_NS {
@@ -18,7 +20,8 @@ NextPath advance(const scene::Settings& settings, Int flags, Int depth, const Ch
     n.depth = count_bounce(depth, c);
     const Int state = step_state(state_of(flags), c.specular), since_d = scatterings_since_d(flags);
     const Int layer = select((since_d > Int(0)) | ~c.specular, min(since_d + Int(1), Int(path::k_layers)), Int(0));
-    const Mask last = over_limits(settings, n.depth);
+    Mask last = over_limits(settings, n.depth);
+    if (replaces_bounces(settings)) last |= is_short_ray(settings, n.depth);
     n.flags = ray_kind(c) | (state << path::k_state_shift) | (layer << path::k_layer_shift) |
               select(last, Int(path::k_flag_last), Int(0)) |
               select(c.diffuse, Int(path::k_flag_after_diffuse), flags & Int(path::k_flag_after_diffuse));
@@ -103,6 +106,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         store(chunk.depth + i, depth);
         const Int event = event_of(depth, transparent);
         store(chunk.event + i, event);
+        keep_terminator(scene, s, chunk, i);
 
         const Int seed = gather(scratch.pixel_seed, path), index = gather(scratch.sample_index, path);
         const Vec2 u = sample_pair(seed, index, event_dimension(event, pair_bsdf));

@@ -14,8 +14,9 @@ void scale_rows(Row (&rows)[3], int i, Mask dark) {
 /// Cycles' Reflective and Refractive Caustics switches: glossy lobes are dark for light that a diffuse lobe collects.
 void drop_caustic_lobes(const scene::Settings& settings, bsdf::Lobe& lobe, int i, Mask after_diffuse) {
     using bsdf::LobeKind;
-    const bool reflects =
-        lobe.kind == LobeKind::ggx_reflection || lobe.kind == LobeKind::ggx_glass || lobe.kind == LobeKind::toon_glossy;
+    // Of glass whose refraction stays, VertexChunk::dark_glass_reflection takes the other half.
+    const bool whole_glass = lobe.kind == LobeKind::ggx_glass && !settings.refractive_caustics;
+    const bool reflects = lobe.kind == LobeKind::ggx_reflection || whole_glass || lobe.kind == LobeKind::toon_glossy;
     if (reflects && !settings.reflective_caustics) scale_rows(lobe.weight, i, after_diffuse);
     if (lobe.kind == LobeKind::ggx_refraction && !settings.refractive_caustics)
         scale_rows(lobe.weight, i, after_diffuse);
@@ -48,6 +49,8 @@ path::VertexChunk* Tracer::new_record(int lobes, bool in_medium) {
             if (media) media->surface_material = -1;
             chunk->lobe = lobe;
             chunk->pick = pick;
+            chunk->dark_glass_reflection = !scene.settings.reflective_caustics && scene.settings.refractive_caustics;
+            chunk->narrows = false;
             return chunk;
         }
         // Full: evaluate what is recorded so far and start again.

@@ -129,6 +129,7 @@ void Tracer::leave_chunk(const std::int32_t* exits, int n, bool fresnel) {
         if (scene.has_volumes) record_media(*chunk, i, ray);
         store(chunk->gather + i, Float(0.0f));
         store(chunk->radius + i, Float(0.0f));
+        store(chunk->instance + i, Int(-1));
     }
     fill_lambert(*chunk, fresnel);
     for (int i = 0; i < n; i += W) {

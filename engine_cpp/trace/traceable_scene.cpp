@@ -43,6 +43,8 @@ scene::Settings effective_settings(scene::Settings s) {
     } else {
         s.reflective_caustics = s.refractive_caustics = true;
         s.filter_glossy = 0;
+        // Where photons bring all light, there are no bounces of camera paths to be replaced.
+        if (s.integrator == scene::IntegratorKind::photon_mapping) s.fast_gi = scene::FastGi::off;
     }
     return s;
 }

@@ -302,3 +302,26 @@ def test_colour_configuration_is_blenders(settings, monkeypatch):
     assert resolved()["ocio_config"].endswith("config.ocio")
     monkeypatch.setenv("OCIO", "/somewhere/else.ocio")
     assert resolved()["ocio_config"] == "/somewhere/else.ocio"
+
+
+def test_fast_gi_is_followed(settings):
+    scene = bpy.context.scene
+    assert resolved()["fast_gi"] == "off"
+    scene.cycles.use_fast_gi, scene.cycles.ao_bounces_render = True, 2
+    scene.world = bpy.data.worlds.new("sky")
+    scene.world.light_settings.ao_factor, scene.world.light_settings.distance = 0.5, 3.0
+    wanted = {"fast_gi": "replace", "fast_gi_bounces": 2, "fast_gi_factor": 0.5, "fast_gi_distance": 3.0}
+    assert {key: resolved()[key] for key in wanted} == wanted
+    scene.cycles.fast_gi_method = "ADD"
+    assert resolved()["fast_gi"] == "off"
+
+
+def test_what_is_not_followed_is_told(settings):
+    from cardioid.resolve import unsupported
+
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene.cycles.use_fast_gi, scene.render.use_motion_blur, scene.render.use_simplify = False, False, False
+    assert unsupported(scene, layer) == []
+    scene.cycles.use_fast_gi, scene.cycles.fast_gi_method = True, "ADD"
+    scene.render.use_motion_blur = scene.render.use_simplify = scene.cycles.use_camera_cull = True
+    assert [told.split()[0] for told in unsupported(scene, layer)] == ["Fast", "Motion", "Simplify:"]

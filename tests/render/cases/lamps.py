@@ -25,7 +25,7 @@ def lamps_in_mirrors(scene):
     kit.lamp("AREA", (2.2, -1.0, 1.2), size=0.6, energy=20.0).data.cycles.use_multiple_importance_sampling = False
 
 
-@case(samples=64, wheels=True)
+@case(samples=192, wheels=True)
 def lamps_seen(scene):
     """Lamps that the camera sees: area, point, spot and sun; one of them hidden from diffuse rays."""
     kit.lamp_stage()
@@ -80,7 +80,7 @@ def lamp_portal(scene):
     lamp.data.cycles.is_portal = True
 
 
-@case(samples=64, wheels=True)
+@case(samples=192, wheels=True)
 def lamp_coordinates(scene):
     """Nodes of turned and scaled lamps see them in their own space: parametric place, normal, object, position."""
     kit.lamp_stage()
@@ -92,7 +92,8 @@ def lamp_coordinates(scene):
     point = kit.lamp("POINT", (-1.5, -1.4, 1.6), energy=60.0, shadow_soft_size=0.1)
     point.scale = (1.3, 0.8, 1.0)
     g = common.Graph(point.data, "ShaderNodeOutputLight")
-    g.surface(g.node("Emission", {"Color": g.node("TexCoord").outputs["Normal"], "Strength": 2.0}))
+    turned = g.node("VectorMath", {0: g.node("TexCoord").outputs["Normal"], 1: (1.2, 1.2, 1.2)}, operation="ADD")
+    g.surface(g.node("Emission", {"Color": turned.outputs[0], "Strength": 0.7}))
 
 
 @case(samples=64, wheels=True)
@@ -133,7 +134,7 @@ def world_seen_by(scene):
     scene.world.cycles_visibility.camera = scene.world.cycles_visibility.glossy = False
 
 
-@case(samples=64)
+@case(samples=192)
 def emission_of_one_side(scene):
     """Meshes that emit on one side by Backfacing, sampled and not sampled as lamps."""
     kit.lamp_stage()

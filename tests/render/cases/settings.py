@@ -63,9 +63,9 @@ def visible_by_kind(scene):
     kit.world((0.5, 0.55, 0.6), 1.0)
     kit.camera()
     kit.floor()
-    kit.lamp("SUN", (1, -2, 3), energy=1.0, angle=0.2)
-    common.sphere("mirror", (-0.9, 0.4, 0.6), 0.6, _sheen_ball(0.1), 48, 24)
-    glass = common.material("glass", "BsdfRefraction", Color=(0.9, 1.0, 0.9), Roughness=0.1, IOR=1.2, distribution="GGX")
+    kit.lamp("AREA", (1, -2, 3), size=2.0, energy=150.0)
+    common.sphere("mirror", (-0.9, 0.4, 0.6), 0.6, _sheen_ball(0.3), 48, 24)
+    glass = common.material("glass", "BsdfRefraction", Color=(0.9, 1, 0.9), Roughness=0.4, IOR=1.2, distribution="GGX")
     common.sphere("glass", (0.9, -0.6, 0.6), 0.6, glass, 48, 24)
     scene.cycles.caustics_reflective = scene.cycles.caustics_refractive = False
     kinds = ("camera", "diffuse", "glossy", "transmission", "shadow")
@@ -75,6 +75,14 @@ def visible_by_kind(scene):
             kind, (0.2, 0.2, 0.4), kit.diffuse(color, name=kind), location=(-1.4 + 0.7 * i, -1.2 + 0.5 * (i % 3), 0.4)
         )
         setattr(block, "visible_" + kind, False)
+
+
+@case(samples=64, wheels=True)
+def terminator_default(scene):
+    """A coarse smooth ball under a hard lamp: its faces do not show, as Blender's default offset wants it."""
+    kit.lamp_stage()
+    kit.lamp("POINT", (1.6, -0.6, 1.2), energy=60.0, shadow_soft_size=0.0)
+    common.sphere("coarse", (-0.2, -1.2, 0.4), 0.4, kit.diffuse((0.6, 0.6, 0.6), name="coarse"), 12, 8)
 
 
 @case(samples=64, wheels=True)
@@ -98,7 +106,7 @@ def holdout_object(scene):
     scene.render.film_transparent = True
 
 
-@case(samples=64, wheels=True)
+@case(samples=192, wheels=True)
 def glass_film(scene):
     """Transparent Glass on a transparent film, one ball clear and one rough."""
     kit.world((0.6, 0.7, 0.9), 1.0)

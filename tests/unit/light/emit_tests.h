@@ -48,6 +48,7 @@ inline Source world_source(std::string name, Radiance radiance) {
     s.world.map_resolution = 64;
     s.world.sampling = scene::WorldSampling::manual;
     s.world.program = 0;
+    s.world.compensate = false;
     s.world.eval = [radiance](int n, const Float3* d, Float3* out) {
         for (int i = 0; i < n; ++i) out[i] = radiance(d[i]);
     };

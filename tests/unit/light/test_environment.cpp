@@ -23,12 +23,13 @@ struct Sky {
     }
 };
 
-light::WorldInput world_of(const Sky& sky, int resolution) {
+light::WorldInput world_of(const Sky& sky, int resolution, bool compensate = false) {
     light::WorldInput world;
     world.constant = false;
     world.map_resolution = resolution;
     world.sampling = scene::WorldSampling::manual;
     world.program = 5;
+    world.compensate = compensate;
     world.eval = [sky](int n, const Float3* d, Float3* out) {
         EXPECT_LE(n, 64);
         for (int i = 0; i < n; ++i) out[i] = sky(d[i]);
@@ -132,6 +133,36 @@ TEST(Environment, EnergyIsExact) {
             << resolution << " " << m.mean << " " << expected;
         if (resolution >= 256) { EXPECT_TRUE(statistics::t_test(wrong, expected, 2e-3 * expected).rejected(k_level)); }
     }
+}
+
+TEST(Environment, CompensatedSamplesAndEvenOnesTogetherSeeAllLight) {
+    const Sky sky;
+    const Receiver at{{0, 0, 0}, {0, 0, 0}};
+    const LightTable table = table_of_world(world_of(sky, 1024, true));
+    const auto power = [](double a, double b) { return a * a / std::max(a * a + b * b, 1e-30); };
+    const double even = 1 / (4 * k_pi_d);
+    statistics::Moments sampled, by_chance;
+    for_each_draw(table, at, k_draws, 33, [&](const Draw& d) {
+        const auto pdf = static_cast<double>(d.pdf);
+        sampled.add(d.valid ? static_cast<double>(sky(d.wi).x) / pdf * power(pdf, even) : 0);
+    });
+    Uniform uniform(4);
+    for (int k = 0; k < k_draws; k += W) {
+        const Vec3 u = uniform.lanes();
+        for (int i = 0; i < W; ++i) {
+            const float z = 2 * u.x[i] - 1, phi = static_cast<float>(2 * k_pi_d) * u.y[i], r = std::sqrt(1 - z * z);
+            const Float3 d{r * std::cos(phi), r * std::sin(phi), z};
+            const Vec3 toward{d.x, d.y, d.z};
+            const Float pdf = pdf_environment(table.data(), at.lanes(), toward, mask_of(true));
+            by_chance.add(static_cast<double>(sky(d).x) / even * power(even, static_cast<double>(pdf[0])));
+        }
+    }
+    const double disk = 2 * k_pi_d * (1 - static_cast<double>(sky.cos_sun));
+    const double expected = 4 * k_pi_d * 0.45 + disk * 20'000;
+    EXPECT_NEAR(sampled.mean + by_chance.mean, expected, 0.01 * expected);
+    // Nothing is spent on what is darker than the mean.
+    const Vec3 down{0.0f, 0.0f, -1.0f};
+    EXPECT_EQ(pdf_environment(table.data(), at.lanes(), down, mask_of(true))[0], 0.0f);
 }
 
 TEST(Environment, SunDrawsMostSamples) {
