@@ -8,16 +8,21 @@ namespace cardioid::nodes {
 namespace {
 
 constexpr NodeType k_unsupported[] = {
+    {"ShaderNodeBsdfRayPortal", nullptr, nullptr, since_45(Support::none), "paths do not go on elsewhere"},
+    {"ShaderNodeRadialTiling", nullptr, nullptr, since_50(Support::none),
+     "a thousand lines of cases, found in none of the files"},
     {"ShaderNodeScript", nullptr, nullptr, Support::none, "OSL"},
+    {"ShaderNodeTexPointDensity", nullptr, nullptr, until_45(Support::none),
+     "Blender itself gathers the points, by no way that an add-on can call; gone in 5.0"},
 };
 
 using Index = std::map<std::string, const NodeType*>;
 
 Index make_index() {
     Index index;
-    for (const auto family :
-         {closure_nodes(), principled_nodes(), input_nodes(), info_nodes(), math_nodes(), color_nodes(),
-          convert_nodes(), texture_nodes(), image_nodes(), vector_nodes(), ray_nodes(), special_nodes(), sky_nodes(), volume_nodes(), hair_nodes()})
+    for (const auto family : {closure_nodes(), principled_nodes(), input_nodes(), info_nodes(), math_nodes(),
+                              color_nodes(), convert_nodes(), texture_nodes(), image_nodes(), vector_nodes(),
+                              ray_nodes(), special_nodes(), sky_nodes(), volume_nodes(), hair_nodes()})
         for (const NodeType& type : family) index.emplace(type.idname, &type);
     return index;
 }

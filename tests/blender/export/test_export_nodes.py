@@ -65,7 +65,7 @@ def test_principled_tells_its_version():
         new.use_nodes = True
     use(new)
     node = by_name(by_name(export().scene.materials, "Default")["graph"]["nodes"], "Principled BSDF")
-    assert node["params"]["version"] == (2 if bpy.app.version >= (4, 0) else 1)
+    assert node["params"]["version"] == 1 + (bpy.app.version >= (4, 0)) + (bpy.app.version >= (5, 0))
     assert node["params"]["distribution"] in ("GGX", "MULTI_GGX")
     assert ("Coat Weight" in node["inputs"]) == (bpy.app.version >= (4, 0))
 
