@@ -105,7 +105,8 @@ inline Float cell_distance(Vec4 a, Vec4 b, const CellSettings& s) {
     Float sum = pow(d.x, s.exponent) + pow(d.y, s.exponent);
     if constexpr (D > 2) sum += pow(d.z, s.exponent);
     if constexpr (D > 3) sum += pow(d.w, s.exponent);
-    return pow(sum, 1.0f / s.exponent);
+    // Without an exponent everything is endlessly far.
+    return select(s.exponent == Float(0.0f), Float(1e30f), pow(sum, 1.0f / s.exponent));
 }
 
 /// Calls f(offset) for the cells around, from -reach to reach along each axis, x fastest.

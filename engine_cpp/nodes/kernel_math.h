@@ -6,6 +6,8 @@
 
 namespace cardioid::CD_ISA_NS {
 
+inline constexpr float k_infinity = __builtin_inff();
+
 /// 0 where the divisor is 0.
 inline Float safe_divide(Float a, Float b) { return select(b != Float(0.0f), a / b, Float(0.0f)); }
 inline Float truncate(Float a) { return copysign(floor(abs(a)), a); }
@@ -24,7 +26,9 @@ inline Float safe_modulo(Float a, Float b) {
 
 /// a^b; a negative base needs an integer exponent, else 0.
 inline Float safe_power(Float a, Float b) {
-    const Float r = pow(abs(a), b);
+    Float r = pow(abs(a), b);
+    const Mask zero = a == Float(0.0f);
+    r = select(zero, select(b < Float(0.0f), Float(k_infinity), select(b > Float(0.0f), Float(0.0f), Float(1.0f))), r);
     const Mask whole = b == floor(b);
     const Float half = b * 0.5f;
     const Float negative = select(whole, select(half == floor(half), r, -r), Float(0.0f));

@@ -103,6 +103,12 @@ Ref3 NodeContext::object_position() {
 Ref3 NodeContext::generated() {
     Ref3 p = position();
     if (kind() == GraphKind::world) return p;
+    if (shift_ != Shift::none) {
+        // As any attribute of a triangle that is seen from behind (op barycentric_step).
+        const Ref3 d = step(shift_);
+        const Ref back = b.chunk(ChunkRow::backfacing), minus_two = b.constant(-2);
+        p = b.add(p, b.multiply(d, b.multiply(back, minus_two)));
+    }
     if (compiler_.moved_ && !compiler_.undisplaced_) p = undisplaced(p);
     const Ref3 box = b.emit3(Op::transform, {p.x, p.y, p.z},
                              transform_mode(Space::generated, Quantity::point, Direction::from_world));

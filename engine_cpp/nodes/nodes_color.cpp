@@ -56,15 +56,17 @@ bool blend_hsv(Builder& b, const std::string& mode, Ref3 x, Ref3 y, Ref t, Ref3&
     const auto where = [&](Ref condition, Ref3 yes) {
         return Builder::each(yes, x, [&](Ref u, Ref v) { return b.select_positive(condition, u, v); });
     };
+    // Saturation is negative where the largest channel is.
+    const auto coloured = [&](Ref saturation) { return b.emit(Op::absolute, {saturation}); };
     const auto between = [&](Ref u, Ref v) { return b.emit(Op::blend, {u, v, t}); };
     if (mode == "HUE")
-        out = where(q.y, b.mix(x, convert(b, Op::hsv_to_rgb, {q.x, p.y, p.z}), t));
+        out = where(coloured(q.y), b.mix(x, convert(b, Op::hsv_to_rgb, {q.x, p.y, p.z}), t));
     else if (mode == "SATURATION")
-        out = where(p.y, convert(b, Op::hsv_to_rgb, {p.x, between(p.y, q.y), p.z}));
+        out = where(coloured(p.y), convert(b, Op::hsv_to_rgb, {p.x, between(p.y, q.y), p.z}));
     else if (mode == "VALUE")
         out = convert(b, Op::hsv_to_rgb, {p.x, p.y, between(p.z, q.z)});
     else if (mode == "COLOR")
-        out = where(q.y, b.mix(x, convert(b, Op::hsv_to_rgb, {q.x, q.y, p.z}), t));
+        out = where(coloured(q.y), b.mix(x, convert(b, Op::hsv_to_rgb, {q.x, q.y, p.z}), t));
     else
         return false;
     return true;

@@ -78,7 +78,9 @@ void attribute(NodeContext& c) {
     const Results r = attribute_rows(c);
     c.color_out("Color", rows3(r));
     c.vector_out("Vector", rows3(r));
-    c.number_out("Fac", c.b.average(rows3(r)));
+    const std::string name = c.text("attribute_name");
+    const bool of_mesh = c.text("attribute_type", "GEOMETRY") == "GEOMETRY" && !name.empty();
+    c.number_out("Fac", of_mesh ? c.attribute(name, attribute_number)[0] : c.b.average(rows3(r)));
     c.number_out("Alpha", r[3]);
 }
 

@@ -50,7 +50,9 @@ void ies(NodeContext& c) {
         d = c.vector("Vector");
     else if (c.kind() != GraphKind::world)
         d = to_object(c, d, Quantity::normal);
-    c.number_out("Fac", c.b.multiply(strength, c.b.emit(Op::ies, {d.x, d.y, d.z}, 0, c.b.add_data(table))));
+    // Blender 4.1 to 4.5 fade beyond the table's ends.
+    const bool keeps_ends = c.property("version", 1) != 2;
+    c.number_out("Fac", c.b.multiply(strength, c.b.emit(Op::ies, {d.x, d.y, d.z}, keeps_ends, c.b.add_data(table))));
 }
 
 constexpr NodeType k_nodes[] = {

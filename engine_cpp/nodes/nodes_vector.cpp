@@ -83,7 +83,9 @@ void vector_rotate(NodeContext& c) {
 void vector_transform(NodeContext& c) {
     const std::string type = c.text("vector_type", "VECTOR"), from = c.text("convert_from", "WORLD"),
                       to = c.text("convert_to", "OBJECT");
-    const Quantity q = type == "POINT" ? Quantity::point : Quantity::vector;
+    // Since Blender 4.4 normals are transformed as such, and stay as they are where nothing is to be done.
+    const bool true_normal = type == "NORMAL" && c.property("version", 1) >= 2;
+    const Quantity q = type == "POINT" ? Quantity::point : true_normal ? Quantity::normal : Quantity::vector;
     const auto space = [](const std::string& name) { return name == "CAMERA" ? Space::camera : Space::object; };
     Ref3 v = c.vector("Vector", {0.5f, 0.5f, 0.5f});
     if (from != to) {
@@ -92,7 +94,7 @@ void vector_transform(NodeContext& c) {
         if (to != "WORLD")
             v = c.b.emit3(Op::transform, {v.x, v.y, v.z}, transform_mode(space(to), q, Direction::from_world));
     }
-    c.vector_out("Vector", type == "NORMAL" ? c.b.normalize(v) : v);
+    c.vector_out("Vector", type == "NORMAL" && !true_normal ? c.b.normalize(v) : v);
 }
 
 void normal(NodeContext& c) {

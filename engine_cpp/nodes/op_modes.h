@@ -42,6 +42,7 @@ inline constexpr std::uint32_t transform_mode(Space s, Quantity q, Direction d) 
 enum AttributeMissing : std::uint32_t {
     attribute_missing_opaque,  ///< alpha is 1 where the mesh lacks the attribute
     attribute_missing_clear,   ///< alpha is 0 there
+    attribute_number,          ///< x is what Fac gives: the mean, of two channels the first
 };
 
 /// imm of the ops that send rays: number of samples, and flags.
@@ -49,6 +50,12 @@ enum RayNodeMode : std::uint32_t {
     ray_samples_mask = 0xff,
     rays_inside = 1u << 8,
     rays_local = 1u << 9,  ///< only the object itself is hit
+};
+
+/// imm of the ies op.
+enum IesMode : std::uint32_t {
+    ies_keeps_ends = 1,  ///< beyond its angles the table keeps its last value; else it is 0 there
+    ies_is_round = 2,    ///< it goes on around the circle whatever its angles are
 };
 
 /// Entries of ramp and curve tables.

@@ -11,12 +11,14 @@ namespace {
 struct IesView {
     int h_count, v_count;
     const float *h, *v, *value;
-    explicit IesView(const float* data)
+    float keep;  ///< 1: beyond its ends the table keeps its last value; 0: it is 0 there
+    IesView(const float* data, float at_ends)
         : h_count(static_cast<int>(data[0])),
           v_count(static_cast<int>(data[1])),
           h(data + 2),
           v(h + h_count),
-          value(v + v_count) {}
+          value(v + v_count),
+          keep(at_ends) {}
     float at(int row, int column) const { return value[row * v_count + column]; }
 };
 
@@ -38,9 +40,10 @@ float share(const float* angles, int i, float angle) {
 /// Along one horizontal angle. Beyond the poles it goes on at the same one, as if the lamp were symmetric.
 float vertical(const IesView& t, int row, int v, float x) {
     const bool low = t.v[0]<1e-7f, high = t.v[t.v_count - 1]> 3.14159265f - 1e-7f;
-    const float a = v > 0 ? t.at(row, v - 1) : low ? t.at(row, 1) : 0;
-    const float d = v + 2 < t.v_count ? t.at(row, v + 2) : high ? t.at(row, t.v_count - 2) : 0;
-    return cubic(a, t.at(row, v), t.at(row, v + 1), d, x);
+    const float b = t.at(row, v), c = t.at(row, v + 1);
+    const float a = v > 0 ? t.at(row, v - 1) : low ? t.at(row, 1) : t.keep * b;
+    const float d = v + 2 < t.v_count ? t.at(row, v + 2) : high ? t.at(row, t.v_count - 2) : t.keep * c;
+    return cubic(a, b, c, d, x);
 }
 
 float look_up(const IesView& t, float h, float v) {
@@ -49,16 +52,17 @@ float look_up(const IesView& t, float h, float v) {
     const bool around = h_low < 1e-7f && h_high > 6.2831853f - 1e-7f;
     const int i = cell_of(t.h, t.h_count, h), j = cell_of(t.v, t.v_count, v);
     const float x = share(t.h, i, h), y = share(t.v, j, v);
-    const float a = i > 0 ? vertical(t, i - 1, j, y) : around ? vertical(t, t.h_count - 2, j, y) : 0;
-    const float d = i + 2 < t.h_count ? vertical(t, i + 2, j, y) : around ? vertical(t, 1, j, y) : 0;
-    const float r = cubic(a, vertical(t, i, j, y), vertical(t, i + 1, j, y), d, x);
+    const float b = vertical(t, i, j, y), c = vertical(t, i + 1, j, y);
+    const float a = i > 0 ? vertical(t, i - 1, j, y) : around ? vertical(t, t.h_count - 2, j, y) : t.keep * b;
+    const float d = i + 2 < t.h_count ? vertical(t, i + 2, j, y) : around ? vertical(t, 1, j, y) : t.keep * b;
+    const float r = cubic(a, b, c, d, x);
     return r > 0 ? r : 0;
 }
 
 }  // namespace
 
 void op_ies(const Machine& m, const Instruction& in) {
-    const IesView table(m.view.data + in.data);
+    const IesView table(m.view.data + in.data, in.imm != 0 ? 1.0f : 0.0f);
     const Source3 direction = m.arg3(in, 0);
     alignas(64) Row h, v;
     for (int i = 0; i < m.end; i += W) {

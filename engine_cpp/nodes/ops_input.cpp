@@ -96,7 +96,10 @@ void op_attribute(const Machine& m, const Instruction& in) {
         Float z = select(single, x, Float(0.0f)), w = select(a.have, Float(1.0f), missing);
         if (any(many)) z = select(many, a.at(select(many, Int(2), Int(0)), s, t), z);
         if (any(four)) w = select(four, a.at(select(four, Int(3), Int(0)), s, t), w);
-        store4(m, in, i, {select(a.have, x, 0.0f), select(a.have, y, 0.0f), select(a.have, z, 0.0f)}, w);
+        Vec3 value = select(a.have, Vec3{x, y, z}, Vec3{0.0f, 0.0f, 0.0f});
+        if (in.data == nodes::attribute_number)
+            value.x = select(a.channels == Int(2), value.x, (value.x + value.y + value.z) * (1.0f / 3.0f));
+        store4(m, in, i, value, w);
     }
 }
 
@@ -208,7 +211,9 @@ void op_surface_step(const Machine& m, const Instruction& in) {
 void op_barycentric_step(const Machine& m, const Instruction& in) {
     const Source3 d = m.arg3(in, 0);
     for (int i = 0; i < m.end; i += W) {
-        const Vec3 p = d.at(i), a = load3(m.chunk.dp_du, i), b = load3(m.chunk.dp_dv, i);
+        // Seen from behind, Cycles takes the triangle's edges the other way round, and the step with them.
+        const Mask back = load(m.chunk.backfacing + i) > Float(0.0f);
+        const Vec3 p = select(back, -d.at(i), d.at(i)), a = load3(m.chunk.dp_du, i), b = load3(m.chunk.dp_dv, i);
         const Float aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), pa = dot(p, a), pb = dot(p, b);
         const Float det = aa * bb - ab * ab;
         const Float inv = select(det > Float(0.0f), 1.0f / max(det, 1e-38f), Float(0.0f));

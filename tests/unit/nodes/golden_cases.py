@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from golden_special import special_cases
 from golden_values import NOISE, case, color_cases, math_cases, vector_cases
 
 
@@ -266,5 +267,5 @@ def newer_cases() -> list[dict]:
 
 def cases(version: tuple) -> list[dict]:
     if version >= (4, 1):
-        return newer_cases() + texture_cases(version)
-    return math_cases() + color_cases() + vector_cases() + texture_cases(version) + scene_cases()
+        return newer_cases() + texture_cases(version) + special_cases(version)
+    return math_cases() + color_cases() + vector_cases() + texture_cases(version) + scene_cases() + special_cases(version)

@@ -87,7 +87,7 @@ private:
     void fill_lane(nodes::ShadingChunk& c, int i, std::size_t point) const {
         const float a = case_.points[point] - case_.center[0], b = case_.points[point + 1] - case_.center[1];
         const Float3 n = normalize(Float3{-0.3f, -0.2f, 1});
-        const bool first = a > b + 1e-4f;  // Cycles gives the diagonal to the second triangle
+        const bool first = a > b + 5e-4f;  // Cycles gives the diagonal to the second triangle
         c.triangle[i] = first ? 0 : 1;
         c.mesh[i] = c.instance[i] = 0;
         c.barycentric_u[i] = first ? (a - b) / 2 : (a + 1) / 2;
