@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "path/media.h"
+#include "path/subsurface.h"
 
 #include <bit>
 
@@ -28,7 +29,7 @@ Mask has_medium(const trace::SceneView& scene, Int material, Mask lanes) {
     Mask found = mask_of(false);
     for (std::uint32_t left = bits(lanes); left != 0;) {
         const int id = material[std::countr_zero(left)];
-        const Mask here = lanes & (material == Int(id));
+        const Mask here = lanes_with(material, id, lanes);
         left &= ~bits(here);
         if (scene.materials[id].volume) found |= here;
     }
@@ -39,7 +40,7 @@ Mask only_bounds(const trace::SceneView& scene, Int material, Mask with_medium) 
     Mask found = mask_of(false);
     for (std::uint32_t left = bits(with_medium); left != 0;) {
         const int id = material[std::countr_zero(left)];
-        const Mask here = with_medium & (material == Int(id));
+        const Mask here = lanes_with(material, id, with_medium);
         left &= ~bits(here);
         if (is_boundary(scene.materials[id])) found |= here;
     }
@@ -92,7 +93,7 @@ MediumLanes medium_at(Walk& walk, const MediaLanes& media, const ShadedPoint& at
         for (std::uint32_t left = bits(filled); left != 0;) {
             const int first = std::countr_zero(left);
             const int id = media.material[k][first];
-            const Mask here = filled & (media.material[k] == Int(id));
+            const Mask here = lanes_with(media.material[k], id, filled);
             left &= ~bits(here);
             add_medium(sum, total, volume_points(walk, id, point, here, first), choice, here);
         }

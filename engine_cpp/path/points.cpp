@@ -102,6 +102,8 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
     }
 }
 
+Mask lanes_with(Int values, int value, Mask among) { return among & (values == Int(value)); }
+
 void run_surface(Walk& walk, int program, const ShadedPoint& at, Float footprint, nodes::SurfaceOutput& out, Mask here,
                  int first) {
     fill_points(walk, program, at, here, first);

@@ -138,6 +138,9 @@ inline void append_exit(path::SubsurfaceExit& to, const WalkLanes& w, Vec3 posit
     to.n += compress_store(to.kind + to.n, w.kind, m);
 }
 
+/// Lanes with this value. Out of line: GCC 12 folds the comparison of a one-lane vector with its own lane to 1, which is no mask.
+Mask lanes_with(Int values, int value, Mask among);
+
 /// The surface of one program at the lanes of `here`, into `out`, which has room for its lobes; `first` is one of them.
 void run_surface(Walk& walk, int program, const ShadedPoint& at, Float footprint, nodes::SurfaceOutput& out, Mask here,
                  int first);

@@ -38,7 +38,7 @@ void bend_exits(Tracer& t) {
         Vec3 bent = at.normal;
         for (std::uint32_t left = bits(lanes); left != 0;) {
             const int first = std::countr_zero(left), id = material[first];
-            const Mask here = lanes & (material == Int(id));
+            const Mask here = lanes_with(material, id, lanes);
             left &= ~bits(here);
             const nodes::ProgramInfo& info = t.scene.materials[id].info;
             if (!info.own_normals || !info.has_subsurface) continue;

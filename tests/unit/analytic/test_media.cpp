@@ -165,6 +165,21 @@ TEST(MediaAsCycles, PrincipledVolume) {
     expect_channels(m.scene, {0.057531, 0.025642, 0.008980}, 0.006);
 }
 
+TEST(MediaWidths, Agree) {
+    SceneMaker m = lit_ball(with_volume(GraphMaker()
+                                            .node("ShaderNodeSubsurfaceScattering")
+                                            .value("Color", {0.8f, 0.6f, 0.4f, 1})
+                                            .value("Radius", {0.2f, 0.1f, 0.05f})
+                                            .value("Scale", {1})
+                                            .surface("BSSRDF"),
+                                        absorbing(k_tint, 1)),
+                            2);
+    m.world(with_volume(background(0), scattering({0.9f, 0.8f, 0.7f}, 0.1f)));
+    m.scene.settings.samples = 256;
+    const double whole = mean_of(*render_frame(m.scene, 3, 16));
+    for (const int width : {1, 8}) EXPECT_NEAR(mean_of(*render_frame(m.scene, 3, width)), whole, 1e-3 * whole) << width;
+}
+
 TEST(MediaAsCycles, WorldOfFog) {
     SceneMaker m = lit_ball(diffuse(0.8f), 4);
     m.world(with_volume(background(0), scattering({0.9f, 0.8f, 0.7f}, 0.1f)));
