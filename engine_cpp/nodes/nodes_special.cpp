@@ -50,9 +50,10 @@ void ies(NodeContext& c) {
         d = c.vector("Vector");
     else if (c.kind() != GraphKind::world)
         d = to_object(c, d, Quantity::normal);
-    // Blender 4.1 to 4.5 fade beyond the table's ends.
-    const bool keeps_ends = c.property("version", 1) != 2;
-    c.number_out("Fac", c.b.multiply(strength, c.b.emit(Op::ies, {d.x, d.y, d.z}, keeps_ends, c.b.add_data(table))));
+    // Blender 4.1 to 4.5 fade beyond the table's ends; before, every table went around the circle.
+    const int version = static_cast<int>(c.property("version", 1));
+    const std::uint32_t mode = version == 2 ? 0u : version > 2 ? ies_keeps_ends : ies_keeps_ends | ies_is_round;
+    c.number_out("Fac", c.b.multiply(strength, c.b.emit(Op::ies, {d.x, d.y, d.z}, mode, c.b.add_data(table))));
 }
 
 constexpr NodeType k_nodes[] = {

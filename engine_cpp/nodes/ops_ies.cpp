@@ -11,14 +11,16 @@ namespace {
 struct IesView {
     int h_count, v_count;
     const float *h, *v, *value;
-    float keep;  ///< 1: beyond its ends the table keeps its last value; 0: it is 0 there
-    IesView(const float* data, float at_ends)
+    float keep;  ///< share of the last value that is left beyond it
+    bool round;  ///< goes on around the circle
+    IesView(const float* data, std::uint32_t mode)
         : h_count(static_cast<int>(data[0])),
           v_count(static_cast<int>(data[1])),
           h(data + 2),
           v(h + h_count),
           value(v + v_count),
-          keep(at_ends) {}
+          keep((mode & nodes::ies_keeps_ends) != 0 ? 1.0f : 0.0f),
+          round((mode & nodes::ies_is_round) != 0) {}
     float at(int row, int column) const { return value[row * v_count + column]; }
 };
 
@@ -39,7 +41,8 @@ float share(const float* angles, int i, float angle) {
 
 /// Along one horizontal angle. Beyond the poles it goes on at the same one, as if the lamp were symmetric.
 float vertical(const IesView& t, int row, int v, float x) {
-    const bool low = t.v[0]<1e-7f, high = t.v[t.v_count - 1]> 3.14159265f - 1e-7f;
+    const float first = t.v[0], last = t.v[t.v_count - 1];
+    const bool low = t.round || (first < 1e-7f), high = !t.round && (last > 3.14159265f - 1e-7f);
     const float b = t.at(row, v), c = t.at(row, v + 1);
     const float a = v > 0 ? t.at(row, v - 1) : low ? t.at(row, 1) : t.keep * b;
     const float d = v + 2 < t.v_count ? t.at(row, v + 2) : high ? t.at(row, t.v_count - 2) : t.keep * c;
@@ -49,7 +52,7 @@ float vertical(const IesView& t, int row, int v, float x) {
 float look_up(const IesView& t, float h, float v) {
     const float h_low = t.h[0], h_high = t.h[t.h_count - 1];
     if (!(v >= t.v[0]) || v >= t.v[t.v_count - 1] || !(h >= h_low) || h >= h_high) return 0;
-    const bool around = h_low < 1e-7f && h_high > 6.2831853f - 1e-7f;
+    const bool around = t.round || (h_low < 1e-7f && h_high > 6.2831853f - 1e-7f);
     const int i = cell_of(t.h, t.h_count, h), j = cell_of(t.v, t.v_count, v);
     const float x = share(t.h, i, h), y = share(t.v, j, v);
     const float b = vertical(t, i, j, y), c = vertical(t, i + 1, j, y);
@@ -62,7 +65,7 @@ float look_up(const IesView& t, float h, float v) {
 }  // namespace
 
 void op_ies(const Machine& m, const Instruction& in) {
-    const IesView table(m.view.data + in.data, in.imm != 0 ? 1.0f : 0.0f);
+    const IesView table(m.view.data + in.data, in.imm);
     const Source3 direction = m.arg3(in, 0);
     alignas(64) Row h, v;
     for (int i = 0; i < m.end; i += W) {

@@ -27,6 +27,8 @@ TEST_P(Golden, IsWhatCyclesGives) {
     tile->fill(m->chunk);
     CD_ISA_NS::run_program(g.of(nodes::Purpose::emission), m->chunk, m->out, m->scratch);
     for (int i = 0; i < points; ++i) {
+        // On the diagonal Cycles may have taken either triangle, each with its own parameters.
+        if (c.name == "geometry Parametric" && tile->on_diagonal(i)) continue;
         for (int k = 0; k < 3; ++k) {
             const float want = c.values[static_cast<std::size_t>(i * 3 + k)], got = m->out.emission[k][i];
             EXPECT_NEAR(got, want, c.tolerance * std::max(std::abs(want), 0.05f)) << "point " << i << " channel " << k;

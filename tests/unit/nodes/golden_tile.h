@@ -45,6 +45,11 @@ public:
         for (int i = 0; i < k_chunk; ++i) fill_lane(chunk, i, static_cast<std::size_t>(std::min(i, chunk.n - 1)) * 3);
     }
 
+    bool on_diagonal(int i) const {
+        const std::size_t p = static_cast<std::size_t>(i) * 3;
+        return std::abs(case_.points[p] - case_.center[0] - (case_.points[p + 1] - case_.center[1])) < 1e-3f;
+    }
+
 private:
     static constexpr float k_corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
