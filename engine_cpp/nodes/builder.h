@@ -150,6 +150,7 @@ public:
     void emission(Ref3 radiance);
     void transparent(Ref3 weight);
     void holdout(Ref weight);
+    void set_normal(Ref3 n) { emit(Op::set_normal, {n.x, n.y, n.z}); }
     void displacement(Ref3 offset) { emit(Op::displacement, {offset.x, offset.y, offset.z}); }
     void medium_absorption(Ref3 coefficient);
     void medium_emission(Ref3 radiance);

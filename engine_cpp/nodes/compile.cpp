@@ -109,6 +109,7 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.needs_light_path = uses(surface, Op::ray_value);
     info.has_bump = uses(surface, Op::surface_step);
     info.own_normals = makes_normals(surface);
+    info.sets_normal = uses(surface, Op::set_normal);
     info.needs_triangle_frame = reads_triangle(surface);
     info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::named_value) ||
                           uses(surface, Op::transform) || uses(surface, Op::uv_tangent);

@@ -201,6 +201,7 @@ void GraphCompiler::bump_displacement() {
         const Ref one = builder_.constant(1);
         const Ref dx = builder_.subtract(height[1], height[0]), dy = builder_.subtract(height[2], height[0]);
         normal_ = moved_ ? bumped_in_object_space(c, normal_, dx, dy, one, one) : bumped(c, normal_, dx, dy, one, one);
+        builder_.set_normal(normal_);
     }
     undisplaced_ = false;
     set_step(before);

@@ -59,6 +59,7 @@ void store_layer(const Machine& m, const Instruction& in, const Lobe& lobe, int 
 
 void op_emission(const Machine& m, const Instruction& in) { add_rows(m, in, m.out.emission); }
 void op_displacement(const Machine& m, const Instruction& in) { copy_rows(m, in, 0, m.out.displacement); }
+void op_set_normal(const Machine& m, const Instruction& in) { copy_rows(m, in, 0, m.out.normal); }
 void op_transparent(const Machine& m, const Instruction& in) { add_rows(m, in, m.out.transparency); }
 void op_holdout(const Machine& m, const Instruction& in) {
     const Source s = m.arg(in, 0);

@@ -38,6 +38,7 @@ struct ProgramInfo {
     bool has_lobes = false;
     bool has_bump = false;
     bool own_normals = false;       ///< lobes may have other normals than the surface's smooth one
+    bool sets_normal = false;       ///< displacement bumps the surface itself (SurfaceOutput::normal)
     bool needs_light_path = false;  ///< depends on the kind of ray
     bool has_holdout = false;
     bool constant_transparency = false;  ///< then transparency_value holds it for every point and ray

@@ -73,7 +73,7 @@ struct GeometryTables {
 /// Rays that nodes send (Bevel, Ambient Occlusion, Raycast), for the lanes of a chunk.
 struct alignas(64) NodeRays {
     Row origin[3], direction[3], t_min, t_max;  ///< t_max < t_min: no ray in this lane
-    std::int32_t only[k_chunk];                 ///< instance that alone can be hit; -1: all; -2: what is opaque to shadow rays
+    std::int32_t only[k_chunk];  ///< instance that alone can be hit; -1: all; -2: what is opaque to shadow rays
 };
 struct alignas(64) NodeHits {
     Row t;                           ///< 1e30: nothing
@@ -136,6 +136,7 @@ struct alignas(64) SurfaceOutput {
     Row transparency[3];  ///< weight of Transparent BSDFs: light that passes straight through
     Row holdout;          ///< weight of Holdout
     VolumeOutput* volume = nullptr;  ///< Purpose::volume writes it; given by the caller
+    Row normal[3];                   ///< where ProgramInfo::sets_normal: the smooth normal, bumped by displacement
     Row displacement[3];             ///< Purpose::displacement: world-space offset
 };
 

@@ -96,6 +96,7 @@ void PhotonWalk::shade(int material, const std::int32_t* list, int n) {
     if (m.info.has_bump) set_footprint(scene.camera, scratch.shading);
     out.lobe = lobe;
     run_program(*m.surface, scratch.shading, out, scratch.registers);
+    if (m.info.sets_normal) take_bumped_normal(n);
     chunk->n = n;
     chunk->lobes = out.lobes;
     chunk->lobe = lobe;

@@ -111,6 +111,12 @@ void run_surface(Walk& walk, int program, const ShadedPoint& at, Float footprint
     run_program(*walk.scene.materials[program].surface, walk.scratch.shading, out, walk.scratch.registers);
 }
 
+void Walk::take_bumped_normal(int n) {
+    for (int c = 0; c < 3; ++c) {
+        for (int i = 0; i < n; i += W) store(scratch.shading.normal[c] + i, load(scratch.surface.normal[c] + i));
+    }
+}
+
 Spectrum shade_points(Walk& walk, nodes::Purpose purpose, Int program, const ShadedPoint& at, Mask active) {
     const bool emission = purpose == nodes::Purpose::emission;
     nodes::SurfaceOutput& out = walk.scratch.surface;

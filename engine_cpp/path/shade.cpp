@@ -81,6 +81,7 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     fill_shading(material, list, n);
     out.lobe = chunk->lobe;
     run_program(*m.surface, scratch.shading, out, scratch.registers);
+    if (m.info.sets_normal) take_bumped_normal(n);
     scratch.counters.vertices += static_cast<std::uint64_t>(n);
     if ((now->flags[list[0]] & nodes::ray_camera) != 0) write_first_hit(list, n);
     if (m.info.has_emission) add_surface_emission(material, list);

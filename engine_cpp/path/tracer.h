@@ -37,6 +37,8 @@ struct Walk {
 
     // points.cpp: the shading chunk of rays at one material.
     void fill_shading(int material, const std::int32_t* rays, int n);
+    /// Displacement that acts as bump turns the surface itself: what looks at its normal later sees the bumped one, as in Cycles.
+    void take_bumped_normal(int n);
 
     // media_segment.cpp
     /// What media did to a packet of rays on the way to their hits.
