@@ -51,7 +51,8 @@ float vertical(const IesView& t, int row, int v, float x) {
 
 float look_up(const IesView& t, float h, float v) {
     const float h_low = t.h[0], h_high = t.h[t.h_count - 1];
-    if (!(v >= t.v[0]) || v >= t.v[t.v_count - 1] || !(h >= h_low) || h >= h_high) return 0;
+    if (!(v < t.v[t.v_count - 1])) return 0;
+    if (!t.round && (v < t.v[0] || h < h_low || h >= h_high)) return 0;
     const bool around = t.round || (h_low < 1e-7f && h_high > 6.2831853f - 1e-7f);
     const int i = cell_of(t.h, t.h_count, h), j = cell_of(t.v, t.v_count, v);
     const float x = share(t.h, i, h), y = share(t.v, j, v);
