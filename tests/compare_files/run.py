@@ -30,7 +30,6 @@ import judge  # noqa: E402
 import page  # noqa: E402
 import renders  # noqa: E402
 
-APART = ("HAIR", "VOLUME")
 REFERENCE_SEED = 1000
 
 
@@ -123,7 +122,7 @@ def line(result: Result) -> str:
     means = " ".join(f"{name} {f.value:+.1%}±{f.noise:.1%}" for name, f in j.means.items())
     total, has, same, missing = result.nodes
     text += f"   mean {means}   median block {j.block.value:.1%} (noise {j.block.noise:.1%}), 95th {j.worst_blocks:.1%}"
-    text += f"   {total} nodes, {has / max(total, 1):.1%} supported, {same / max(total, 1):.1%} exactly"
+    text += f"   {total} nodes, {has / total:.1%} supported, {same / total:.1%} exactly" if total else "   no nodes"
     if missing:
         text += f"   missing: {', '.join(f'{k} {n}' for k, n in sorted(missing.items()))}"
     if result.cells:
