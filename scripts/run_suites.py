@@ -153,8 +153,9 @@ def cpp_tests() -> Counts:
 
 
 def python_tests() -> Counts:
-    """Python that needs no Blender: the arithmetic of the bench and of the comparison with Cycles."""
-    return pytest_suite("python", [TOOLS / "python", "-m", "pytest"], ["tests/bench", "tests/render"], 300)
+    """Python that needs no Blender: the arithmetic of the bench and of the comparisons with Cycles."""
+    folders = ["tests/bench", "tests/render", "tests/compare_nodes", "tests/compare_files"]
+    return pytest_suite("python", [TOOLS / "python", "-m", "pytest"], folders, 300)
 
 
 def in_blender(name: str, starter: list[str | Path]) -> Counts:
