@@ -133,7 +133,7 @@ void Tracer::enter_subsurface(const path::VertexChunk& chunk, int i, Int ray, co
         WalkLanes w;
         w.throughput = load_rgb(chunk.throughput, i) * load_rgb(lobe.weight, i) * (1.0f / pick);
         w.anisotropy = clamp(load(lobe.roughness + i), 0.0f, 0.9f);
-        w.opposite = -1.0f;
+        w.opposite = -offset_step(p, load(chunk.distance + i));
         w.entry = p;
         w.normal = cardioid::CD_ISA_NS::load3(chunk.normal, i);
         const bool burley = lobe.preserve_energy;
@@ -146,7 +146,7 @@ void Tracer::enter_subsurface(const path::VertexChunk& chunk, int i, Int ray, co
             set_coefficients(w, load_rgb(lobe.f0, i), load_rgb(lobe.f90, i));
             w.direction = entry_direction(lobe, i, wo, c.rest, here);
             here &= dot(ng, w.direction) < Float(0.0f);
-            w.position = offset_origin(p, ng, w.direction, load(chunk.distance + i));
+            w.position = p;
         }
         here &= max_component(w.throughput) > Float(0.0f);
         w.ray = ray;

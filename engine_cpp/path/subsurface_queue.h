@@ -16,7 +16,7 @@ enum WalkRow : int {
     walk_extinction = walk_normal + 3,     ///< rgb per scene unit; Burley: d of the profile
     walk_albedo = walk_extinction + 3,     ///< rgb: of one scattering
     walk_anisotropy = walk_albedo + 3,     ///< mean cosine
-    walk_opposite,                         ///< depth of the surface on the other side; negative: none near
+    walk_opposite,  ///< depth of the surface on the other side; negative: not known, then -(least distance of the first ray)
     walk_rows
 };
 

@@ -106,6 +106,8 @@ void Tracer::step_walks(int step, int i, int end) {
     // The first ray looks further: it also tells how thick the object is.
     const Float least = min(extinction.r, min(extinction.g, extinction.b));
     if (step == 0) ray.t_max = max(t, 10.0f / max(least, 1e-20f));
+    // The walk starts at the surface itself: moved inside by the offset of rays, short radii would lose light.
+    if (step == 0) ray.t_min = max(-w.opposite, 0.0f);
     scratch.counters.rays += static_cast<std::uint64_t>(count(lanes));
     const HitLanes h = intersect_own(scene, ray, w.instance, lanes);
     const Mask hit = h.hit & (h.t < t);

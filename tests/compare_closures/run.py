@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Closure by closure against Cycles; the last line is `N passed, N failed, N skipped`.
 

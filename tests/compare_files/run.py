@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Real files by Cardioid and by Cycles; the last line is `N passed, N failed, N skipped`.
 
