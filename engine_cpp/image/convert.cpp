@@ -48,6 +48,12 @@ void spread(const std::byte* texel, int channels, bool ignore_alpha, T out[4]) {
     out[3] = has_alpha ? channel(channels - 1) : one_of(T{});
 }
 
+/// Integers are cut off, not rounded, as Cycles does it.
+std::uint8_t product(std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(unsigned{a} * b / 255); }
+std::uint16_t product(std::uint16_t a, std::uint16_t b) { return static_cast<std::uint16_t>(unsigned{a} * b / 65535); }
+Half product(Half a, Half b) { return {half_from_float(to_float(a) * to_float(b))}; }
+float product(float a, float b) { return a * b; }
+
 template <class T>
 std::size_t copy_row(std::byte* to, const Texture& texture, const Conversion& c, const std::byte* from, int width) {
     const int delivered = c.source.delivered();
@@ -60,6 +66,8 @@ std::size_t copy_row(std::byte* to, const Texture& texture, const Conversion& c,
             std::fill_n(texel, 4, T{});
             ++bad;
         }
+        if (c.multiply)
+            for (int k = 0; k < 3; ++k) texel[k] = product(texel[k], texel[3]);
         std::memcpy(to, texel, texture.texel_bytes());
     }
     return bad;

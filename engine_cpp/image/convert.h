@@ -12,6 +12,8 @@ struct Conversion {
     SourceInfo source;
     ColorSpace space;
     bool ignore_alpha = false;  ///< alpha becomes 1
+    bool multiply =
+        false;  ///< colours are multiplied by alpha in the file's own numbers, which truncates, as in Cycles
     bool associated =
         false;  ///< colours arrive multiplied by alpha: divided for the conversion of colours, then multiplied
 };

@@ -110,15 +110,21 @@ struct alignas(64) ShadowQueue {
 /// Of scene-linear Rec.709.
 constexpr float luminance(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
 
-/// What a batch found, by path.
-struct alignas(64) BatchResult {
-    int n = 0;
+/// Light by path.
+struct alignas(64) LightSums {
     PathFloats radiance[k_classes][3];
+    // With BatchRequest::layers only:
+    PathFloats unfiltered[3];  ///< the part of the radiance that is in no layer: D1 and photons
+    /// R and I of the layers of incident light (film/cluster.h).
+    PathFloats layer_radiance[k_layers][3], layer_incident[k_layers][3];
+};
+
+/// What a batch found, by path.
+struct alignas(64) BatchResult : LightSums {
+    int n = 0;
     PathFloats alpha;             ///< share of the camera ray that something stopped
     PathFloats depth, normal[3];  ///< at the first surface; depth 1e10 where there is none
-    PathFloats unfiltered[3];     ///< the part of the radiance that is in no layer: D1 and photons
-    /// R and I of the layers of incident light (film/cluster.h); with BatchRequest::layers only, as what follows.
-    PathFloats layer_radiance[k_layers][3], layer_incident[k_layers][3];
+    // With BatchRequest::layers only, as what follows.
     PathFloats detail[3];  ///< albedo of the D lobes at x_d × throughput before it
     PathFloats feature_normal[3], feature_depth, feature_depth_squared;  ///< at x_d, × luminance(detail)
     PathFloats mirrored_detail[3];  ///< the part of `detail` that lies behind specular lobes
@@ -267,6 +273,9 @@ struct alignas(64) Scratch {
     PathFloats demodulation[3];         ///< by path: I over R of what arrives at x_d along the sampled direction
     PathInts pixel_seed, sample_index;  ///< by path; sample numbers with their bits reversed, as sample_pair wants them
     std::int32_t* bins = nullptr;       ///< material_count + 2 counters, owned by the caller
+    /// What rays met by themselves, apart from what was sought: when the record overflows that comes early, and sums must not
+    /// depend on it.
+    LightSums met;
     Counters counters;
     const std::atomic<bool>* cancelled = nullptr;
     PathLog* log = nullptr;

@@ -45,7 +45,7 @@ void Tracer::deposit(Int ray, Spectrum radiance, Float share, Mask active) {
         // 0 before x_d: k_no_layer.
         light.layer = scatterings_since_d(flags) - Int(1);
     }
-    add_light(result, request.layers, state, path_of, light, active);
+    add_light(scratch.met, request.layers, state, path_of, light, active);
     if (!request.photons) return;
     const Mask hits = active & (state == Int(static_cast<int>(path::State::caustic_hit)));
     for (std::uint32_t b = bits(hits); b != 0; b &= b - 1) {

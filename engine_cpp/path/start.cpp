@@ -29,18 +29,24 @@ int assign_pixels(const path::BatchRequest& request, path::BatchResult& result) 
     return n;
 }
 
-void clear_layers(path::BatchResult& result, int i) {
+void clear_light(path::LightSums& sums, bool layers, int i) {
     const auto clear = [i](path::PathFloats(&rows)[3]) { store3(rows, i, {0.0f, 0.0f, 0.0f}); };
-    clear(result.unfiltered);
+    for (auto& c : sums.radiance) clear(c);
+    if (!layers) return;
+    clear(sums.unfiltered);
+    for (int l = 0; l < path::k_layers; ++l) {
+        clear(sums.layer_radiance[l]);
+        clear(sums.layer_incident[l]);
+    }
+}
+
+void clear_features(path::BatchResult& result, int i) {
+    const auto clear = [i](path::PathFloats(&rows)[3]) { store3(rows, i, {0.0f, 0.0f, 0.0f}); };
     clear(result.detail);
     clear(result.mirrored_detail);
     clear(result.feature_normal);
     store(result.feature_depth + i, Float(0.0f));
     store(result.feature_depth_squared + i, Float(0.0f));
-    for (int l = 0; l < path::k_layers; ++l) {
-        clear(result.layer_radiance[l]);
-        clear(result.layer_incident[l]);
-    }
 }
 }  // namespace
 
@@ -88,14 +94,28 @@ void Tracer::start() {
         }
         // Far clipping concerns camera rays alone: kept where hits look for it.
         store(scratch.hits.t + i, r.t_max);
-        for (auto& c : result.radiance) {
-            for (auto& channel : c) store(channel + i, Float(0.0f));
-        }
-        if (request.layers) clear_layers(result, i);
+        clear_light(result, request.layers, i);
+        clear_light(scratch.met, request.layers, i);
+        if (request.layers) clear_features(result, i);
         store(result.alpha + i, Float(1.0f));
         store(result.caustic_hits + i, Float(0.0f));
         store(result.depth + i, Float(1e10f));
         store3(result.normal, i, {0.0f, 0.0f, 0.0f});
+    }
+}
+
+void Tracer::finish() {
+    for (int i = 0; i < result.n; i += W) {
+        const auto add = [i](path::PathFloats(&to)[3], const path::PathFloats(&from)[3]) {
+            for (int c = 0; c < 3; ++c) store(to[c] + i, load(to[c] + i) + load(from[c] + i));
+        };
+        for (int k = 0; k < path::k_classes; ++k) add(result.radiance[k], scratch.met.radiance[k]);
+        if (!request.layers) continue;
+        add(result.unfiltered, scratch.met.unfiltered);
+        for (int l = 0; l < path::k_layers; ++l) {
+            add(result.layer_radiance[l], scratch.met.layer_radiance[l]);
+            add(result.layer_incident[l], scratch.met.layer_incident[l]);
+        }
     }
 }
 

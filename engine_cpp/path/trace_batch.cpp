@@ -31,6 +31,7 @@ void trace_batch(const path::BatchRequest& request, path::Scratch& scratch, path
         tracer.swap_rays();
     }
     tracer.add_direct_light();
+    tracer.finish();
 }
 
 }  // namespace cardioid::CD_ISA_NS

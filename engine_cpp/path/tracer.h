@@ -72,6 +72,8 @@ struct Tracer : Walk {
 
     // start.cpp: camera rays of all paths, results cleared.
     void start();
+    /// Adds what rays met by themselves to what was sought.
+    void finish();
 
     // emission.cpp: light that rays found by themselves.
     void add_lamp_hits();
@@ -345,8 +347,7 @@ struct Light {
 };
 
 /// Adds light to the paths' sums of their classes and layers, in lane order: several lanes may share a path.
-inline void add_light(path::BatchResult& result, bool layers, Int path_class, Int path, const Light& light,
-                      Mask active) {
+inline void add_light(path::LightSums& result, bool layers, Int path_class, Int path, const Light& light, Mask active) {
     for (std::uint32_t b = bits(active); b != 0; b &= b - 1) {
         const int k = std::countr_zero(b);
         add_to(result.radiance[path_class[k]], path[k], light.radiance, k);

@@ -250,9 +250,10 @@ protected:
         for (int i = 0; i < store.size(); ++i) {
             const Color a = test::texel(store, i, 0, 0, AlphaUse::straight),
                         b = test::texel(store, i, 0, 0, AlphaUse::associated);
+            // Products are cut off to a step of 65535; over an alpha of a half and by the slope of the curve: 5.4e-5.
             for (std::size_t c = 0; c < 4; ++c) {
-                EXPECT_NEAR(a[c], straight[c], 2e-5) << "straight, image " << i << " channel " << c;
-                EXPECT_NEAR(b[c], associated[c], 2e-5) << "associated, image " << i << " channel " << c;
+                EXPECT_NEAR(a[c], straight[c], 6e-5) << "straight, image " << i << " channel " << c;
+                EXPECT_NEAR(b[c], associated[c], 6e-5) << "associated, image " << i << " channel " << c;
             }
             EXPECT_EQ(store.has_alpha(i), mode != scene::AlphaMode::none);
         }

@@ -98,8 +98,9 @@ TEST(OddFiles, GreyWithAlphaIsAsInCycles) {
 TEST(OddFiles, TargaAlphaIsStraight) {
     const test::Folder folder;
     const std::string path = plain_file(folder, "a.tga", {0.8f, 0.6f, 0.4f, 0.4f});
-    expect_near(straight(test::file_image(path, k_linear)), {0.8f, 0.6f, 0.4f, 0.4f}, 0.003);
-    expect_near(associated(test::file_image(path, k_linear)), {0.32f, 0.24f, 0.16f, 0.4f}, 0.003);
+    // 204, 153, 102 times 102 / 255, cut off: 81, 61, 40 (Cycles).
+    expect_near(straight(test::file_image(path, k_linear)), {81.0f / 102, 61.0f / 102, 40.0f / 102, 0.4f}, 1e-5);
+    expect_near(associated(test::file_image(path, k_linear)), {81.0f / 255, 61.0f / 255, 40.0f / 255, 0.4f}, 1e-5);
 }
 
 TEST(OddFiles, ExrChannelsByTheirNames) {
