@@ -8,7 +8,7 @@ namespace {
 
 using scene::IntegratorKind;
 
-constexpr int k_few = 5;
+constexpr int k_few = 10;
 
 void expect_one_picture(const CausticCase& c) {
     const Pictures judge = pictures(path_traced(c), 1000, k_few);
