@@ -53,7 +53,7 @@ def glass_sharp(scene):
     kit.bare_sky()
 
 
-@case(samples=96, wheels=True)
+@case(samples=384, wheels=True)
 def glass_rough(scene):
     """Rough glass, GGX."""
     kit.ball("BsdfGlass", Color=(0.95, 1, 0.97), Roughness=0.35, IOR=1.45, distribution="GGX")
@@ -139,7 +139,7 @@ def principled_coat(scene):
     kit.ball_stage(kit.principled(Base_Color=(0.05, 0.1, 0.3), Roughness=0.6, Coat_Weight=1.0, Coat_Roughness=0.15))
 
 
-@case(samples=96, wheels=True)
+@case(samples=384, wheels=True)
 def principled_glass(scene):
     """Transmission, rough."""
     kit.ball_stage(kit.principled(Base_Color=(0.9, 0.95, 1.0), Roughness=0.3, Transmission_Weight=1.0, IOR=1.45))

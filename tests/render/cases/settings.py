@@ -57,7 +57,7 @@ def fewest_bounces(scene):
     scene.cycles.min_light_bounces = scene.cycles.min_transparent_bounces = 4
 
 
-@case(samples=96, wheels=True)
+@case(samples=288, wheels=True)
 def visible_by_kind(scene):
     """Blocks hidden from camera, diffuse, glossy, transmission and shadow rays, between a mirror and a glass ball."""
     kit.world((0.5, 0.55, 0.6), 1.0)
@@ -106,7 +106,7 @@ def holdout_object(scene):
     scene.render.film_transparent = True
 
 
-@case(samples=192, wheels=True)
+@case(samples=768, wheels=True)
 def glass_film(scene):
     """Transparent Glass on a transparent film, one ball clear and one rough."""
     kit.world((0.6, 0.7, 0.9), 1.0)
