@@ -72,12 +72,9 @@ void Tracer::send_on_from_medium(const path::VertexChunk& chunk, int i, Int ray,
     const Mask last =
         over_limits(settings, depth) | (scatterings_in_media(transparent) > Int(most_scatterings(settings)));
     Mask go = lanes & (s.value > Float(0.0f));
-    const path::ClassSet wanted =
-        path::ClassSet(request.partition.camera | (request.partition.blend_hits ? bit(path::PathClass::c1) : 0));
-    if (wanted != path::k_all_classes) go &= can_reach(state, wanted);
-    Spectrum carried = load_rgb(chunk.throughput, i);
-    const Mask gamble = go & (byte_of(depth, 0) > Int(2));
-    const Float survive = select(gamble, min(sqrt(max_component(carried)), 0.95f), Float(1.0f));
+    if (wanted() != path::k_all_classes) go &= can_reach(state, wanted());
+    const Spectrum carried = load_rgb(chunk.throughput, i);
+    const Float survive = survival(carried, depth, go);
     go &= chance.x < survive;
     if (none(go)) return;
     const Float t = load(chunk.distance + i), spread = gather(rays.spread, ray);

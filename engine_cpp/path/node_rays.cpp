@@ -1,38 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "path/node_rays.h"
 
+#include "trace/chosen_hits.h"
+
 namespace cardioid::CD_ISA_NS {
-
-namespace {
-
-constexpr int k_max_skips = 64;  ///< other instances in front of the one that is looked for
-
-/// The closest hit on the instances that each lane wants.
-HitLanes find(const trace::SceneView& scene, RayLanes ray, Int only, Mask active) {
-    HitLanes found;
-    found.hit = mask_of(false);
-    found.t = 1e30f;
-    found.u = found.v = 0.0f;
-    found.ng = {0.0f, 0.0f, 1.0f};
-    found.triangle = found.instance = Int(0);
-    for (int k = 0; k < k_max_skips && any(active); ++k) {
-        const HitLanes h = intersect(scene.embree, ray, active, false);
-        const Mask wanted = h.hit & ((only < Int(0)) | (only == h.instance));
-        found.hit |= wanted;
-        found.t = select(wanted, h.t, found.t);
-        found.u = select(wanted, h.u, found.u);
-        found.v = select(wanted, h.v, found.v);
-        found.ng = select(wanted, h.ng, found.ng);
-        found.triangle = select(wanted, h.triangle, found.triangle);
-        found.instance = select(wanted, h.instance, found.instance);
-        active = h.hit & ~wanted;
-        ray.t_min = select(active, h.t + offset_step(ray.o + ray.d * h.t, h.t), ray.t_min);
-        active &= ray.t_min <= ray.t_max;
-    }
-    return found;
-}
-
-}  // namespace
 
 void node_closest(const void* scene_view, const nodes::NodeRays& rays, nodes::NodeHits& hits, int lanes) {
     const auto& scene = *static_cast<const trace::SceneView*>(scene_view);
@@ -45,7 +16,7 @@ void node_closest(const void* scene_view, const nodes::NodeRays& rays, nodes::No
                               load(rays.t_max + i),
                               0.0f,
                               select(only == Int(-2), Int(opaque), Int(-1))};
-        const HitLanes h = find(scene, ray, only, ray.t_max >= ray.t_min);
+        const HitLanes h = intersect_only(scene, ray, only, ray.t_max >= ray.t_min);
         store(hits.t + i, h.t);
         store(hits.instance + i, select(h.hit, h.instance, Int(-1)));
         if (none(h.hit)) {
@@ -64,7 +35,7 @@ constexpr float k_blurred = 8.0f;
 
 Int node_seed(const Walk& walk, Int ray) {
     const Int path = gather(walk.now->path, ray);
-    const Int event = (gather(walk.now->depth, ray) & Int(0xff)) + gather(walk.now->transparent, ray);
+    const Int event = event_of(gather(walk.now->depth, ray), gather(walk.now->transparent, ray));
     const Int sample = hash(gather(walk.scratch.pixel_seed, path), gather(walk.scratch.sample_index, path));
     const Int seed = hash(sample, event) & Int(0x7fffffff);
     const Mask blurred = gather(walk.now->min_pdf, ray) < Float(k_blurred);

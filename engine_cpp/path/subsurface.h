@@ -4,11 +4,9 @@
 
 #include "bsdf/diffuse.h"
 #include "path/tracer.h"
+#include "trace/chosen_hits.h"
 
 namespace cardioid::CD_ISA_NS {
-
-/// Hits of other objects that a ray inside one steps over before it gives up.
-inline constexpr int k_steps_over = 16;
 
 /// Independent numbers of one step of a walk.
 struct WalkRandom {
@@ -18,29 +16,6 @@ struct WalkRandom {
 /// `step`: of the walk; -1 before it.
 inline WalkRandom walk_random(Int pixel_seed, Int sample_index, Int event, int step) {
     return {hash(hash(pixel_seed, sample_index), event * Int(1024) + Int(step + 1))};
-}
-
-/// The closest hit of the lane's own instance; lanes that meet too much else miss.
-inline HitLanes intersect_own(const trace::SceneView& scene, RayLanes ray, Int instance, Mask active) {
-    HitLanes found{};
-    found.hit = mask_of(false);
-    found.instance = found.triangle = Int(0);
-    Mask search = active;
-    for (int step = 0; step < k_steps_over && any(search); ++step) {
-        const HitLanes h = intersect(scene.embree, ray, search, false);
-        const Mask own = h.hit & (h.instance == instance);
-        found.hit |= own;
-        found.t = select(own, h.t, found.t);
-        found.u = select(own, h.u, found.u);
-        found.v = select(own, h.v, found.v);
-        found.ng = select(own, h.ng, found.ng);
-        found.triangle = select(own, h.triangle, found.triangle);
-        found.instance = select(own, h.instance, found.instance);
-        search &= h.hit & ~own;
-        ray.t_min = select(search, h.t * 1.000001f + 1e-12f, ray.t_min);
-        search &= ray.t_min < ray.t_max;
-    }
-    return found;
 }
 
 inline Spectrum exp(Spectrum x) { return {exp(x.r), exp(x.g), exp(x.b)}; }

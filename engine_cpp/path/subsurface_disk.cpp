@@ -94,7 +94,7 @@ void Tracer::project_disk(int i) {
     const Mask backfacing = (w.kind & Int(path::walk_backfacing)) != Int(0);
     Mask search = lanes;
     for (int k = 0; k < k_most_hits && any(search); ++k) {
-        const HitLanes h = intersect_own(scene, ray, w.instance, search);
+        const HitLanes h = intersect_only(scene, ray, w.instance, search);
         search &= h.hit;
         if (none(search)) break;
         SurfaceNormals at = surface_normals(scene, select(search, h.instance, Int(0)),

@@ -109,7 +109,7 @@ void Tracer::step_walks(int step, int i, int end) {
     // The walk starts at the surface itself: moved inside by the offset of rays, short radii would lose light.
     if (step == 0) ray.t_min = max(-w.opposite, 0.0f);
     scratch.counters.rays += static_cast<std::uint64_t>(count(lanes));
-    const HitLanes h = intersect_own(scene, ray, w.instance, lanes);
+    const HitLanes h = intersect_only(scene, ray, w.instance, lanes);
     const Mask hit = h.hit & (h.t < t);
     if (step == 0) {
         const Vec3 far = w.position + w.direction * h.t;
