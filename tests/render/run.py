@@ -141,7 +141,7 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help="first round only, in Debian's Blender")
     parser.add_argument("--self", action="store_true", dest="self_check", help="Cycles against Cycles with other seeds")
     parser.add_argument(
-        "--seconds", type=float, default=600.0, help="no further round after this time (default: %(default)s)"
+        "--seconds", type=float, default=400.0, help="of a host: no further round after them (default: %(default)s)"
     )
     options = parser.parse_args()
     engines = ("CYCLES", "CYCLES") if options.self_check else ("CARDIOID", "CYCLES")
@@ -152,9 +152,8 @@ def main() -> int:
     ]
     results: list[Result] = []
     for host in found:
-        results += run_host(
-            host, options.case, engines, ROUNDS[:1] if options.quick else ROUNDS, start + options.seconds
-        )
+        rounds = ROUNDS[:1] if options.quick else ROUNDS
+        results += run_host(host, options.case, engines, rounds, time.monotonic() + options.seconds)
     order = {"fail": 0, "inconclusive": 1, "known": 2, "pass": 3}
     results.sort(key=lambda r: (order[r.verdict], r.host, r.case))
     for result in results:
