@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The three scenes of the thesis's chapter 5 with references and masks that another renderer made."""
+"""The three scenes of the thesis's chapter 5 with references and masks that another renderer made (bench/rivals)."""
 
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,10 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from . import exr, metrics
+from .rivals import scenes, stored
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDER = ROOT.parent / "shared" / "peers"
-NAMES = ("cornell", "ring", "shapes")
+BUILT = ROOT / "build" / "bench" / "rivals"
+"""The scenes' .blend files, built on first use; their names hold the scene's digest."""
+NAMES = tuple(scenes.ALL)
 COLUMNS = {"relmse": ".5f", "relmse_caustic": ".5f", "rmse": ".4f", "rmse_caustic": ".4f"}
 COLUMNS |= {"energy": ".4f", "energy_caustic": ".4f"}
 
@@ -46,7 +50,11 @@ class PeerScene:
 
 def add_argument(parser) -> None:
     parser.add_argument(
-        "--peers", type=Path, default=FOLDER, metavar="DIR", help="scenes, references, scripts of peers (%(default)s)"
+        "--peers",
+        type=Path,
+        default=stored.FOLDER,
+        metavar="DIR",
+        help="references of the thesis's scenes (%(default)s)",
     )
 
 
@@ -64,22 +72,35 @@ def load_some(folder: Path, names: list[str]) -> list[PeerScene]:
 
 
 def load(folder: Path, name: str) -> PeerScene:
-    needed = [
-        folder / "scenes" / f"{name}.blend",
-        folder / "ref" / f"{name}_ref.exr",
-        folder / "ref" / f"{name}_masks.npz",
-    ]
-    missing = [str(path) for path in needed if not path.exists()]
-    if missing:
-        sys.exit(f"the peers' scenes are not there: {', '.join(missing)} (give their folder with --peers)")
-    reference = exr.load(needed[1])
-    with np.load(needed[2]) as file:
-        emit, caustic, own = file["emit"].astype(bool), file["caustic"].astype(bool), file["err"].astype(np.float64)
-    compared = ~emit
+    try:
+        found = stored.read(folder, name)
+    except ValueError as error:
+        sys.exit(f"{error} (another folder: --peers)")
+    compared = ~found.emit
     compared[-1] = False  # LuxCore's pictures have no last row
-    masks = {"all": compared, "caustic": compared & caustic}
-    error = {key: float(np.sqrt((own[mask] ** 2).mean())) for key, mask in masks.items()}
-    return PeerScene(name, needed[0], reference, masks, error)
+    masks = {"all": compared, "caustic": compared & found.caustic}
+    error = {key: float(np.sqrt((found.error[mask].astype(np.float64) ** 2).mean())) for key, mask in masks.items()}
+    return PeerScene(name, blend_of(name), found.pixels, masks, error)
+
+
+def blend_of(name: str) -> Path:
+    """The scene as a .blend file for Cycles and our add-on. Ends the program with one sentence without Blender."""
+    path = BUILT / f"{name}-{scenes.ALL[name]().digest()}.blend"
+    if path.exists():
+        return path
+    path.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = path.with_name(f"{os.getpid()}-{path.name}")
+    script = ROOT / "bench" / "rivals" / "to_blend.py"
+    command = ["blender", "-b", "--factory-startup", "-noaudio", "--python-exit-code", "1", "-P", str(script)]
+    try:
+        done = subprocess.run([*command, "--", name, str(unfinished)], capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        sys.exit(f"Blender is needed to build the scene {name}, and is not on PATH (scripts/setup demo installs it)")
+    if done.returncode or not unfinished.exists():
+        said = (done.stdout + done.stderr).strip().splitlines()[-3:]
+        sys.exit(f"Blender could not build the scene {name}: {' | '.join(said)}")
+    unfinished.replace(path)
+    return path
 
 
 def load_picture(path: Path) -> np.ndarray:

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""References as they are kept: NAME.exr in half floats and NAME.json, which tells how it was made and of what scene.
+
+Channels of NAME.exr: R, G, B (linear radiance), `error` (the reference's own standard error, root mean square over the
+channels), `emit` (1: the pixel sees the lamp, directly or by mirrors and glass alone, or borders on such a one),
+`caustic` (1: light through mirrors or glass is more than a tenth of the pixel's luminance, seen directly or so).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .. import exr
+from .scenes import ALL
+
+FOLDER = Path(__file__).resolve().parent / "references"
+
+
+@dataclass
+class Stored:
+    """`pixels` (h, w, 3), `error` (h, w), masks (h, w) bool; `record`: the JSON file's content."""
+
+    pixels: np.ndarray
+    error: np.ndarray
+    emit: np.ndarray
+    caustic: np.ndarray
+    record: dict
+
+
+def write(folder: Path, name: str, made: Stored) -> None:
+    """Overwrites both files; the scene's digest is added to the record."""
+    import OpenEXR
+
+    folder.mkdir(parents=True, exist_ok=True)
+    planes = {color: made.pixels[..., index] for index, color in enumerate("RGB")}
+    planes |= {"error": made.error, "emit": made.emit, "caustic": made.caustic}
+    planes = {key: np.ascontiguousarray(plane, np.float16) for key, plane in planes.items()}
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+    with OpenEXR.File(header, planes) as file:
+        file.write(str(folder / f"{name}.exr"))
+    record = {"scene": name, "digest": ALL[name]().digest()} | made.record
+    (folder / f"{name}.json").write_text(json.dumps(record, indent=1) + "\n")
+
+
+def read(folder: Path, name: str) -> Stored:
+    """A scene's reference. ValueError, one sentence: it is not there, or belongs to another scene."""
+    picture, told = folder / f"{name}.exr", folder / f"{name}.json"
+    missing = [str(path) for path in (picture, told) if not path.exists()]
+    if missing:
+        raise ValueError(f"no reference of the scene {name}: {', '.join(missing)} is not there")
+    record = json.loads(told.read_text())
+    if record.get("digest") != ALL[name]().digest():
+        raise ValueError(
+            f"{told} belongs to another scene {name} (digest {record.get('digest')}, the scene's is "
+            f"{ALL[name]().digest()}); make it anew with bench/rivals/make_references.py"
+        )
+    planes = exr.channels(picture)
+    pixels = np.stack([planes[color] for color in "RGB"], -1)
+    return Stored(pixels, planes["error"], planes["emit"] > 0.5, planes["caustic"] > 0.5, record)
