@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where pictures of one scene differ most."""
+
+from __future__ import annotations
+
+import numpy as np
+
+Place = tuple[int, int]
+"""Left and top corner of a square, in pixels from the top left."""
+
+
+def side(height: int, width: int) -> int:
+    """Of a crop's square in pixels: a twelfth of the picture, between 16 and 48."""
+    return int(min(max(max(height, width) // 12, 16), 48, height, width))
+
+
+def difference(pictures: list[np.ndarray], reference: np.ndarray | None) -> np.ndarray:
+    """(height, width): mean distance of the pictures (height, width, 3; 0…1) to the reference, or to their own mean.
+
+    A pixel's distance counts up to ¼, so that a region of many wrong pixels beats a few fireflies.
+    """
+    base = np.mean(pictures, axis=0) if reference is None else reference
+    return np.mean([np.minimum(np.abs(p - base).mean(axis=2), 0.25) for p in pictures], axis=0)
+
+
+def window_sums(values: np.ndarray, size: int) -> np.ndarray:
+    """Sums over every size × size window of (height, width) values, by its top left corner."""
+    sums = np.pad(values, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
+    return sums[size:, size:] - sums[:-size, size:] - sums[size:, :-size] + sums[:-size, :-size]
+
+
+def places(pictures: list[np.ndarray], reference: np.ndarray | None, size: int, count: int = 3) -> list[Place]:
+    """Up to `count` squares where the pictures differ most, the first most; their centres are two sides apart."""
+    sums = window_sums(difference(pictures, reference), size)
+    found: list[Place] = []
+    while len(found) < count and sums.max() > 1e-6 * size * size:
+        y, x = np.unravel_index(int(np.argmax(sums)), sums.shape)
+        found.append((int(x), int(y)))
+        sums[max(y - 2 * size + 1, 0) : y + 2 * size, max(x - 2 * size + 1, 0) : x + 2 * size] = 0.0
+    return found

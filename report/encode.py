@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures as data URIs and as small files."""
+
+from __future__ import annotations
+
+import base64
+import io
+from pathlib import Path
+
+from PIL import Image
+
+MAX_SIDE = 1600
+"""Pixels; larger pictures are shown smaller."""
+
+
+def data_uri(data: bytes, kind: str) -> str:
+    return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+
+
+def within(image: Image.Image, longest: int) -> Image.Image:
+    """The picture, made smaller if a side has more than `longest` pixels."""
+    scale = longest / max(image.size)
+    if scale >= 1.0:
+        return image
+    return image.resize([max(1, round(side * scale)) for side in image.size], Image.Resampling.LANCZOS)
+
+
+def webp(image: Image.Image, quality: int) -> str:
+    """The picture as WebP; quality 100 keeps every pixel."""
+    out = io.BytesIO()
+    within(image, MAX_SIDE).save(out, "WEBP", quality=quality, lossless=quality >= 100, method=4)
+    return data_uri(out.getvalue(), "webp")
+
+
+def png(image: Image.Image) -> str:
+    """The picture as it is, for crops, whose pixels are looked at one by one."""
+    out = io.BytesIO()
+    image.save(out, "PNG", optimize=True)
+    return data_uri(out.getvalue(), "png")
+
+
+def jpeg_under(image: Image.Image, limit: int) -> bytes:
+    """JPEG of at most `limit` bytes: quality goes down first, then size."""
+    smaller = within(image, MAX_SIDE)
+    while True:
+        for quality in (92, 88, 84, 80, 75):
+            out = io.BytesIO()
+            smaller.save(out, "JPEG", quality=quality, optimize=True, progressive=True, subsampling=0)
+            if out.tell() <= limit:
+                return out.getvalue()
+        smaller = within(smaller, int(max(smaller.size) * 0.85))
+
+
+def plot(path: Path) -> str:
+    """A plot's data URI: SVG as it is, others as lossless WebP. OSError if it is no picture."""
+    if path.suffix == ".svg":
+        return data_uri(path.read_bytes(), "svg+xml")
+    with Image.open(path) as image:
+        return webp(image.convert("RGB"), 100)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The docs' gallery: Markdown and small JPEG pictures."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from PIL import Image
+
+from . import encode, files, view
+from .collect import DEMO
+from .scenes import Comparison, Shot
+
+ROOT = Path(__file__).resolve().parents[1]
+LIMIT = 200_000
+"""Bytes of a picture in the docs."""
+GAP = 6
+"""Pixels between two pictures side by side."""
+
+
+def captions(readme: Path) -> dict[str, str]:
+    """What each scene shows, from the table of scenes/README.md."""
+    rows = re.findall(r"^\| `(\w+)\.blend` \| (.+?) \|", readme.read_text(), re.MULTILINE)
+    return dict(rows)
+
+
+def title(scene: str) -> str:
+    return scene.replace("_", " ").capitalize()
+
+
+def pair(left: Image.Image, right: Image.Image) -> Image.Image:
+    """Two pictures of one size side by side."""
+    both = Image.new("RGB", (2 * left.width + GAP, left.height), "white")
+    both.paste(left, (0, 0))
+    both.paste(right, (left.width + GAP, 0))
+    return both
+
+
+def escaped(text: str) -> str:
+    """Text for a cell of a Markdown table; its HTML and its marks are shown as they are."""
+    text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return re.sub(r"([\\`*_\[\]|])", r"\\\1", text).replace("\n", " ")
+
+
+def row(shot: Shot) -> str:
+    """Name, error, energy ratio and CPU seconds of a picture, and how it was made."""
+    cells = [f"**{escaped(shot.name)}**" if view.ours(shot) else escaped(shot.name)]
+    if shot.picture.reference:
+        cells += ["reference", "", "" if shot.picture.cpu is None else f"{shot.picture.cpu:.0f} s"]
+    else:
+        cells += [text for _, text, _ in view.figures(shot.picture)]
+    return "| " + " | ".join([*cells, escaped(shot.picture.settings)]) + " |"
+
+
+def _demo_part(one: Comparison, what: str, folder: Path) -> str:
+    """A scene's picture with the command under it."""
+    shot = one.shots[0]
+    files.write_bytes(folder / f"{view.slug(one.scene)}.jpg", encode.jpeg_under(shot.image, LIMIT))
+    cpu = "" if shot.picture.cpu is None else f" {shot.picture.cpu:.0f} CPU seconds."
+    picture = f"![{escaped(what or title(one.scene))}](images/gallery/{view.slug(one.scene)}.jpg)"
+    return (
+        f"## {title(one.scene)}\n\n{picture}\n\n"
+        f"{what[:1].upper() + what[1:]}{'.' if what else ''}{cpu}\n\n    {shot.picture.settings}\n"
+    )
+
+
+def _pair_part(one: Comparison, folder: Path) -> str:
+    """Two renderers side by side, and the figures of all."""
+    left, right = (one.shots[i] for i in view.first_pair(one))
+    name = f"{view.slug(one.scene)}-{view.slug(one.result)}-{one.size[0]}x{one.size[1]}.jpg"
+    files.write_bytes(folder / name, encode.jpeg_under(pair(left.image, right.image), LIMIT))
+    table = "\n".join(row(s) for s in one.shots)
+    return (
+        f"### {title(one.scene)}\n\n![{escaped(f'Left: {left.name}. Right: {right.name}')}](images/gallery/{name})\n\n"
+        f"Left: {escaped(left.name)}. Right: {escaped(right.name)}. From `./scripts/bench {one.result}`.\n\n"
+        f"| | relMSE | energy | CPU | settings |\n|---|---:|---:|---:|---|\n{table}\n"
+    )
+
+
+def write(docs: Path, comparisons: list[Comparison]) -> str:
+    """DOCS/gallery.md and DOCS/images/gallery/*.jpg; says what was written. Pictures that nothing names any more go."""
+    folder = docs / "images" / "gallery"
+    what = captions(ROOT / "scenes" / "README.md")
+    parts = [
+        "# Gallery\n\nEvery scene of `scenes/`, rendered by Cardioid with the command under the picture, in the"
+        " checkout, the add-on being installed. Written by `./scripts/report --demo --gallery docs`.\n"
+    ]
+    parts += [_demo_part(c, what.get(c.scene, ""), folder) for c in comparisons if c.result == DEMO]
+    pairs = [c for c in comparisons if c.result != DEMO and len(c.shots) > 1]
+    if pairs:
+        parts.append(
+            "## Beside other renderers\n\nrelMSE is the error against the reference, energy the mean over the"
+            " reference's, CPU the seconds of all cores. A dash: not measured.\n"
+        )
+    parts += [_pair_part(c, folder) for c in pairs]
+    text = "\n".join(parts)
+    for old in folder.glob("*.jpg"):
+        if f"images/gallery/{old.name}" not in text:
+            old.unlink()
+    files.write_bytes(docs / "gallery.md", text.encode())
+    return f"{docs / 'gallery.md'}: {len(parts) - 1 - bool(pairs)} pictures"

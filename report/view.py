@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the template shows, as plain values: cells, figures, choices; no HTML."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from datetime import datetime
+
+from bench.result import Picture, Result, Table
+
+from .scenes import Comparison, Shot
+
+ENERGY_TOLERANCE = 0.02
+"""Energy ratios further from 1 than this are marked."""
+
+
+@dataclass
+class Cell:
+    """A table's cell; `sort`: what it is sorted by, empty for text and for what was not measured."""
+
+    text: str
+    sort: str = ""
+    number: bool = False
+
+
+def slug(text: str) -> str:
+    """For ids in the page."""
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") or "x"
+
+
+def cell(value: object, form: str) -> Cell:
+    """A value in its column's format; as it is where the format does not fit it."""
+    if value is None:
+        return Cell("–")
+    if isinstance(value, bool):
+        return Cell("yes" if value else "no")
+    try:
+        text = format(value, form)
+    except (ValueError, TypeError):
+        text = str(value)
+    if isinstance(value, int | float):
+        return Cell(text, repr(value) if math.isfinite(value) else "", True)
+    return Cell(text)
+
+
+def table_rows(table: Table) -> list[list[Cell]]:
+    """Cells by row, in the order of the columns."""
+    return [[cell(row.get(key), form) for key, (_, form) in table.columns.items()] for row in table.rows]
+
+
+def numeric(table: Table) -> list[bool]:
+    """Of each column: whether it holds numbers, which are set flush right."""
+    return [any(type(row.get(key)) in (int, float) for row in table.rows) for key in table.columns]
+
+
+def figures(picture: Picture) -> list[tuple[str, str, bool]]:
+    """Error, energy ratio and CPU seconds, always the three: name, text, whether it is to be marked."""
+    off = picture.energy is not None and not abs(picture.energy - 1.0) <= ENERGY_TOLERANCE
+    return [
+        ("relMSE", "–" if picture.error is None else f"{picture.error:.3g}", False),
+        ("energy", "–" if picture.energy is None else f"{picture.energy:.3f}", off),
+        ("CPU", "–" if picture.cpu is None else f"{picture.cpu:.1f} s", False),
+    ]
+
+
+def ours(shot: Shot) -> bool:
+    """Whether Cardioid made the picture, by its label."""
+    return bool(re.search(r"cardioid|ptppm|clusters", shot.picture.label, re.IGNORECASE)) and not shot.picture.reference
+
+
+def first_pair(comparison: Comparison) -> tuple[int, int]:
+    """Indices of the pictures that the slider begins with: a rival left, ours with the least error right.
+
+    The rival is Cycles where it is there, of its runs the one nearest in CPU seconds; without a rival the reference.
+    """
+    shots = comparison.shots
+    rivals = [s for s in shots if not s.picture.reference and not ours(s)]
+    right = min([s for s in shots if ours(s)] or rivals[-1:] or shots[-1:], key=lambda s: _or_big(s.picture.error))
+    rivals = [s for s in rivals if s is not right]
+    cycles = [s for s in rivals if "cycles" in s.picture.label.lower()]
+    others = cycles or rivals or [s for s in shots if s is not right]
+    left = min(others, key=lambda s: abs(_or_big(s.picture.cpu) - _or_big(right.picture.cpu)))
+    return shots.index(left), shots.index(right)
+
+
+def _or_big(value: float | None) -> float:
+    return 1e30 if value is None else value
+
+
+def day(made: str) -> str:
+    """A result's date as `2026-01-31 14:05`; as it is where it cannot be read."""
+    try:
+        return datetime.strptime(made, "%Y-%m-%dT%H:%M:%S%z").strftime("%Y-%m-%d %H:%M")
+    except ValueError:
+        return made
+
+
+def verdict_counts(results: list[Result]) -> dict[str, int]:
+    """How many claims hold, do not hold, cannot be told."""
+    found = [v.holds for r in results for v in r.verdicts]
+    return {"holds": found.count(True), "does not hold": found.count(False), "cannot be told": found.count(None)}
+
+
+def curve(chords: int = 96) -> list[tuple[float, float, float, float]]:
+    """Chords of the unit circle from the angle a to 2a, x1, y1, x2, y2: their envelope is the cardioid."""
+    turns = [2.0 * math.pi * i / chords for i in range(1, chords)]
+    return [tuple(round(f(k * a), 4) for k in (1, 2) for f in (math.cos, math.sin)) for a in turns]
