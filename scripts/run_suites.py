@@ -154,7 +154,7 @@ def cpp_tests() -> Counts:
 
 def python_tests() -> Counts:
     """Python that needs no Blender: the arithmetic of the bench and of the comparisons with Cycles."""
-    folders = ["tests/bench", "tests/render", "tests/compare_nodes", "tests/compare_files"]
+    folders = ["tests/bench", "tests/docs", "tests/render", "tests/compare_nodes", "tests/compare_files"]
     return pytest_suite("python", [TOOLS / "python", "-m", "pytest"], folders, 300)
 
 
