@@ -108,3 +108,83 @@ def marble_checker(tile: float = 0.5) -> bpy.types.Material:
     dark = g.ramp(ridge, [(0.0, (0.34, 0.34, 0.31)), (0.018, (0.085, 0.10, 0.095)), (0.14, (0.030, 0.040, 0.038))])
     color = g.mix_color(light, dark, pale)
     return g.surface(g.node("BsdfPrincipled", {"Base Color": color, "Roughness": 0.3, "Specular": 0.4}))
+
+
+def travertine(name: str, brightness: float = 1.0) -> bpy.types.Material:
+    """Honed pale limestone: soft bands, pores that are darker and deeper; each object a cut of its own."""
+    g = c.Graph(bpy.data.materials.new(name))
+    at = g.node("TexCoord").outputs["Object"]
+    own = g.node("ObjectInfo").outputs["Random"]
+    here = g.vector_math("MULTIPLY_ADD", own, (31.0, 17.0, 23.0), at)
+    stretched = g.node("Mapping", {"Vector": here, "Scale": (2.2, 9.0, 9.0)}).outputs["Vector"]
+    bands = g.node("TexNoise", {"Vector": stretched, "Scale": 1.0, "Detail": 6.0, "Distortion": 0.6}).outputs["Fac"]
+    holes = g.node("TexNoise", {"Vector": stretched, "Scale": 9.0, "Detail": 3.0}).outputs["Fac"]
+    dark, pale = (0.50, 0.43, 0.33), (0.70, 0.645, 0.55)
+    stone = g.ramp(bands, [(0.30, tuple(brightness * v for v in dark)), (0.68, tuple(brightness * v for v in pale))])
+    pore = g.ramp(holes, [(0.30, (0.45, 0.42, 0.38)), (0.38, (1, 1, 1))])
+    color = g.mix_color(1.0, stone, pore, "MULTIPLY")
+    toned = g.node("HueSaturation", {"Color": color, "Value": g.math("MULTIPLY_ADD", own, 0.22, 0.88)})
+    bump = g.node("Bump", {"Height": pore, "Strength": 0.4, "Distance": 0.002}).outputs["Normal"]
+    return g.surface(
+        g.node("BsdfPrincipled", {"Base Color": toned.outputs[0], "Roughness": 0.55, "Specular": 0.3, "Normal": bump})
+    )
+
+
+def paving() -> bpy.types.Material:
+    """Sandstone slabs, 60 × 40 cm, each of its own tone, with sandy joints."""
+    g = c.Graph(bpy.data.materials.new("paving"))
+    uv = g.node("UVMap").outputs["UV"]
+    slabs = g.node(
+        "TexBrick",
+        {
+            "Vector": uv,
+            "Color1": (0.50, 0.43, 0.34),
+            "Color2": (0.61, 0.55, 0.46),
+            "Mortar": (0.30, 0.26, 0.21),
+            "Scale": 1.0,
+            "Mortar Size": 0.004,
+            "Mortar Smooth": 0.3,
+            "Bias": 0.0,
+            "Brick Width": 0.6,
+            "Row Height": 0.4,
+        },
+        offset=0.5,
+    )
+    grain = g.node("TexNoise", {"Vector": uv, "Scale": 38.0, "Detail": 5.0, "Roughness": 0.65}).outputs["Fac"]
+    stain = g.node("TexNoise", {"Vector": uv, "Scale": 0.9, "Detail": 5.0}).outputs["Fac"]
+    speckled = g.mix_color(
+        0.6, slabs.outputs["Color"], g.ramp(grain, [(0.3, (0.72, 0.70, 0.67)), (0.65, (1, 1, 1))]), "MULTIPLY"
+    )
+    color = g.mix_color(0.6, speckled, g.ramp(stain, [(0.35, (0.72, 0.70, 0.68)), (0.6, (1, 1, 1))]), "MULTIPLY")
+    height = g.math("MULTIPLY_ADD", grain, 0.2, g.math("MULTIPLY", slabs.outputs["Fac"], -1.0))
+    bump = g.node("Bump", {"Height": height, "Strength": 0.6, "Distance": 0.005}).outputs["Normal"]
+    return g.surface(
+        g.node("BsdfPrincipled", {"Base Color": color, "Roughness": 0.7, "Specular": 0.25, "Normal": bump})
+    )
+
+
+def stucco(name: str = "stucco", color=(0.66, 0.62, 0.55)) -> bpy.types.Material:
+    """Lime plaster by hand: a rough bump, faint clouds in its tone."""
+    g = c.Graph(bpy.data.materials.new(name))
+    at = g.node("TexCoord").outputs["Object"]
+    coarse = g.node("TexNoise", {"Vector": at, "Scale": 5.0, "Detail": 4.0}).outputs["Fac"]
+    fine = g.node("TexNoise", {"Vector": at, "Scale": 70.0, "Detail": 4.0, "Roughness": 0.6}).outputs["Fac"]
+    clouds = g.node("TexNoise", {"Vector": at, "Scale": 0.8, "Detail": 5.0}).outputs["Fac"]
+    tone = g.ramp(clouds, [(0.3, tuple(0.86 * v for v in color)), (0.65, color)])
+    height = g.math("MULTIPLY_ADD", fine, 0.35, coarse)
+    bump = g.node("Bump", {"Height": height, "Strength": 0.35, "Distance": 0.012}).outputs["Normal"]
+    return g.surface(g.node("BsdfPrincipled", {"Base Color": tone, "Roughness": 0.9, "Specular": 0.15, "Normal": bump}))
+
+
+def teak() -> bpy.types.Material:
+    """Oiled wood, grain along the object's x."""
+    g = c.Graph(bpy.data.materials.new("teak"))
+    own = g.node("ObjectInfo").outputs["Random"]
+    at = g.vector_math("MULTIPLY_ADD", own, (9.0, 5.0, 7.0), g.node("TexCoord").outputs["Object"])
+    stretched = g.node("Mapping", {"Vector": at, "Scale": (1.4, 34.0, 34.0)}).outputs["Vector"]
+    grain = g.node("TexNoise", {"Vector": stretched, "Scale": 1.0, "Detail": 6.0, "Distortion": 0.8}).outputs["Fac"]
+    color = g.ramp(grain, [(0.3, (0.155, 0.070, 0.030)), (0.5, (0.27, 0.135, 0.062)), (0.72, (0.36, 0.195, 0.095))])
+    bump = g.node("Bump", {"Height": grain, "Strength": 0.2, "Distance": 0.002}).outputs["Normal"]
+    return g.surface(
+        g.node("BsdfPrincipled", {"Base Color": color, "Roughness": 0.42, "Specular": 0.4, "Normal": bump})
+    )
