@@ -8,8 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from . import exr, metrics, reference, store
+from . import exr, metrics, outcome, plot, reference, result, scene_list, store
+from . import options as common
 from .engines import Engine, Job
+from .progress import Progress
 from .scene_list import Scene
 
 FIGURES = ("relmse", "relmse_trim", "rmse", "energy", "flip", "cpu", "cpu_net", "efficiency", "efficiency_net")
@@ -58,7 +60,8 @@ def job_for(plan: Plan, scene: Scene, samples: int, seed: int, out: Path | str =
 def identity(plan: Plan, scene: Scene) -> tuple:
     """What a record's key says of the scene and the settings; a changed file is another scene."""
     stamp = f"{scene.path.stat().st_mtime_ns:x}"
-    return (scene.name, stamp, job_for(plan, scene, 1, 0).width, plan.threads, plan.bounces, plan.caustics)
+    programs = f"{plan.rival.stamp()}-{plan.ours.stamp()}"
+    return (scene.name, stamp, programs, job_for(plan, scene, 1, 0).width, plan.threads, plan.bounces, plan.caustics)
 
 
 def calibrate(records: store.Store, plan: Plan, scene: Scene) -> int:
@@ -81,7 +84,7 @@ def measured(
     found = records.get(*key)
     if found and (samples == 1 or path.exists()):
         return found | {"path": str(path)}
-    if records.out_of_time():
+    if records.out_of_time(key):
         return None
     path.parent.mkdir(parents=True, exist_ok=True)
     done = store.render(engine, job_for(plan, scene, samples, seed, path))
@@ -190,3 +193,66 @@ def notes(rows: list[dict], ours: str) -> list[str]:
             ratios = f"{row['ratio']:.2f} times the rival ({row['ratio_net']:.2f} without fixed costs)"
             out.append(f"{row['scene']}: {ratios}, bar {row['bar']:g}: {word}")
     return out
+
+
+def add_arguments(commands) -> None:
+    parser = commands.add_parser(
+        "efficiency", help="1 / (relative MSE · CPU seconds), interleaved pairs, equal settings"
+    )
+    parser.add_argument("--pairs", type=int, default=0, help="(3; 7 with --full)")
+    parser.add_argument(
+        "--seconds", type=float, default=0.0, help="CPU seconds of a run of the rival (4; 15 with --full)"
+    )
+    parser.add_argument("--bounces", type=int, default=24)
+    parser.add_argument("--caustics", action="store_true", help="leave caustics on (off in both engines without this)")
+    parser.add_argument("--scale", type=float, default=0.0, help="of each scene's picture size (0.67; 1 with --full)")
+    parser.add_argument("--referee", default="cycles", help="the engine of the references (%(default)s)")
+    parser.add_argument(
+        "--reference", type=float, default=24.0, help="samples of a reference over those of a run (%(default)s)"
+    )
+
+
+def plan_of(options, found: dict[str, Engine]) -> Plan:
+    rival, ours, referee = common.usable(found, options.rival, options.ours, options.referee)
+    pairs, seconds, scale = (7, 15.0, 1.0) if options.full else (3, 4.0, 0.67)
+    return Plan(
+        rival,
+        ours,
+        referee,
+        options.pairs or pairs,
+        options.seconds or seconds,
+        options.threads,
+        options.bounces,
+        options.caustics,
+        options.scale or scale,
+        options.reference,
+    )
+
+
+def verdicts(rows: list[dict], ours: str) -> list[result.Verdict]:
+    out = []
+    for row in (row for row in rows if row["engine"] == ours and row["mask"] == "all"):
+        said = f"{row['ratio']:.2f} times, energy {row['energy']:.4f}, {row['cpu']:.2f} CPU s"
+        claim = f"{row['scene']}: {row['bar']:g} times the rival's efficiency"
+        out.append(result.Verdict(claim, "bench", row["ratio"] >= row["bar"], said))
+    return out
+
+
+def run(options, found) -> int:
+    plan = plan_of(options, found)
+    names = list(scene_list.all_scenes(options.cache)) if options.full else common.REDUCED
+    records = common.records_of(options, "efficiency")
+    scenes = common.chosen_scenes(options, names)
+    progress, rows = Progress(len(scenes), records), []
+    for scene in scenes:
+        progress.step(scene.name)
+        rows += compare_scene(records, options.cache, plan, scene)
+    out = result.Result("efficiency", "Efficiency beside Cycles", "./scripts/bench efficiency --full", not options.full)
+    columns = {key: [key.replace("_", " "), form] for key, form in COLUMNS.items()}
+    out.tables = [result.Table("efficiency", out.title, columns, rows, "\n".join(notes(rows, plan.ours.key)))]
+    words = f"{plan.bounces} bounces, caustics {'on' if plan.caustics else 'off'}, nothing clamped, equal samples"
+    out.settings = {engine.title: words for engine in (plan.rival, plan.ours)}
+    out.verdicts = verdicts(rows, plan.ours.key)
+    if rows and plot.efficiency(rows, plan.ours.key, plan.rival.title, outcome.place(out, options)):
+        out.plots = ["efficiency.png"]
+    return outcome.finish(out, options, records)

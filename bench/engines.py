@@ -6,15 +6,17 @@ A new engine is one subclass and one line in `available()`.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import shutil
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from . import programs
+
 ROOT = Path(__file__).resolve().parents[1]
 HERE = Path(__file__).resolve().parent
+BUILT = ROOT / "build" / "release"
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class Engine:
         return ""
 
     def stamp(self) -> str:
-        """Changes with the engine's program, where that is one file; results of another stamp are not reused."""
+        """A digest of the engine's program: results of another one are not reused."""
         return ""
 
 
@@ -97,6 +99,10 @@ class InBlender(Engine):
             f"BLENDER_USER_{part}": str(folder) for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES")
         }
 
+    def stamp(self) -> str:
+        addon = self.addon if self.engine == "CARDIOID" else ""
+        return programs.digest(self.python or "blender", addon)
+
     def extra(self, job: Job, folder: Path) -> dict:
         stats = folder / "stats.json"
         return {"stats": json.loads(stats.read_text())} if stats.exists() else {}
@@ -108,7 +114,7 @@ class CommandLine(Engine):
     key, title = "cardioid-cli", "Cardioid, command line"
 
     def __init__(self, program: str, addon: str, cache: Path):
-        self.program, self.addon, self.cache, self.digest = program, addon, cache, ""
+        self.program, self.addon, self.cache = program, addon, cache
 
     def problem(self) -> str:
         if not Path(self.program).exists():
@@ -116,9 +122,7 @@ class CommandLine(Engine):
         return InBlender("", "", "CARDIOID", "", self.addon).problem()
 
     def stamp(self) -> str:
-        if not self.digest:
-            self.digest = hashlib.sha256(Path(self.program).read_bytes()).hexdigest()[:8]
-        return self.digest
+        return programs.of_file(Path(self.program))
 
     def scene_file(self, job: Job) -> Path:
         """The exported scene of a job's file and settings, made on first use."""
@@ -129,14 +133,15 @@ class CommandLine(Engine):
             from . import measure
 
             path.parent.mkdir(parents=True, exist_ok=True)
-            task = path.with_suffix(".json")
-            task.write_text(json.dumps(asdict(job) | {"engine": "CARDIOID", "addon": self.addon, "export": str(path)}))
+            task, part = path.with_suffix(".json"), path.with_suffix(".part")
+            task.write_text(json.dumps(asdict(job) | {"engine": "CARDIOID", "addon": self.addon, "export": str(part)}))
             script = str(HERE / "render_blend.py")
             cost = measure.run(
                 ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", script, "--", str(task)]
             )
-            if not path.exists():
+            if cost.code or not part.exists():
                 raise RuntimeError("the export failed:\n" + "\n".join(text for _, text in cost.lines[-15:]))
+            part.replace(path)
         return path
 
     def command(self, job: Job, folder: Path) -> tuple[list[str], dict[str, str]]:
@@ -155,7 +160,7 @@ def available(cache: Path) -> dict[str, Engine]:
     """All engines by key. CARDIOID_ADDON: the folder that holds `cardioid`; CARDIOID_RENDER: the command line
     program; CARDIOID_BPY_PYTHONS: Pythons with a bpy wheel, colon-separated."""
     addon = os.environ.get("CARDIOID_ADDON", str(ROOT / "addon"))
-    program = os.environ.get("CARDIOID_RENDER", str(ROOT / "build" / "release" / "bin" / "cardioid-render"))
+    program = os.environ.get("CARDIOID_RENDER", str(BUILT / "engine_cpp" / "apps" / "cli" / "cardioid-render"))
     found: list[Engine] = [
         InBlender("cycles", "Cycles, Blender 3.4", "CYCLES"),
         InBlender("cardioid", "Cardioid, Blender 3.4", "CARDIOID", addon=addon),

@@ -13,7 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-PR_SET_CHILD_SUBREAPER = 36
+PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
+_libc = ctypes.CDLL(None, use_errno=True)
 
 
 @dataclass
@@ -31,7 +32,12 @@ class Cost:
 
 def adopt_orphans() -> None:
     """Makes this process the parent of descendants whose own parent has ended, so that their time is counted too."""
-    ctypes.CDLL(None, use_errno=True).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    _libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+
+
+def die_with_parent() -> None:
+    """In a child before it becomes its program: a bench that is killed leaves no render behind."""
+    _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL, 0, 0, 0)
 
 
 def run(
@@ -57,7 +63,18 @@ def run(
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         start_new_session=True,
+        preexec_fn=die_with_parent,
     )
+    try:
+        return followed(process, start, timeout, until)
+    except BaseException:  # Ctrl-C above all: nothing that was started goes on
+        kill_group(process.pid)
+        reap(process.pid)
+        raise
+
+
+def followed(process: subprocess.Popen, start: float, timeout: float, until: Callable[[str], bool] | None) -> Cost:
+    """Reads and waits to the end."""
     timer = start + timeout
     lines: list[tuple[float, str]] = []
     assert process.stdout is not None

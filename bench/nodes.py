@@ -13,8 +13,16 @@ from . import engines, measure, store
 
 PLAIN = "plain diffuse"
 MATERIALS = {
-    "matlib_wood.blend": ("WO_basic_arbre", "WO_bark_cortex_G", "WO_Polished Walnut", "WO_Procedural_Smooth_G",
-                          "WO_flor_wood_G", "WO_wood_oak_planks_G", "WO_Wood_05", "WO_glossy_Uber_G"),
+    "matlib_wood.blend": (
+        "WO_basic_arbre",
+        "WO_bark_cortex_G",
+        "WO_Polished Walnut",
+        "WO_Procedural_Smooth_G",
+        "WO_flor_wood_G",
+        "WO_wood_oak_planks_G",
+        "WO_Wood_05",
+        "WO_glossy_Uber_G",
+    ),
     "clevr_mymetal.blend": ("Material",),
     "bevy_bakedgi_scene2.blend": ("Material.001",),
     "f9r_v2.blend": ("skin", "heatshield", "cast"),
@@ -40,8 +48,18 @@ def turn(path: Path, options) -> list[dict]:
         files = [(options.blends / name, names) for name, names in MATERIALS.items()]
         listed = [[str(file.resolve()), name] for file, names in files if file.exists() for name in names]
         addon = os.environ.get("CARDIOID_ADDON", str(engines.ROOT / "addon"))
-        task.write_text(json.dumps({"addon": addon, "threads": options.threads, "samples": options.samples,
-                                    "runs": options.runs, "compile": options.compile, "materials": listed}))
+        task.write_text(
+            json.dumps(
+                {
+                    "addon": addon,
+                    "threads": options.threads,
+                    "samples": options.samples,
+                    "runs": options.runs,
+                    "compile": options.compile,
+                    "materials": listed,
+                }
+            )
+        )
         command = ["blender", "-b", "--factory-startup", "-Y", "-noaudio", "--python-exit-code", "1", "-P", str(path)]
         env = {f"BLENDER_USER_{part}": folder for part in ("RESOURCES", "CONFIG", "SCRIPTS", "DATAFILES")}
         cost = measure.run([*command, "--", str(task)], env=env, timeout=7200.0)
