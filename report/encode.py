@@ -7,7 +7,7 @@ import base64
 import io
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageOps
 
 MAX_SIDE = 1600
 """Pixels; larger pictures are shown smaller."""
@@ -29,6 +29,13 @@ def webp(image: Image.Image, quality: int) -> str:
     """The picture as WebP; quality 100 keeps every pixel."""
     out = io.BytesIO()
     within(image, MAX_SIDE).save(out, "WEBP", quality=quality, lossless=quality >= 100, method=4)
+    return data_uri(out.getvalue(), "webp")
+
+
+def thumb(image: Image.Image) -> str:
+    """The middle of the picture, 192 × 128 pixels."""
+    out = io.BytesIO()
+    ImageOps.fit(image, (192, 128), Image.Resampling.LANCZOS).save(out, "WEBP", quality=85)
     return data_uri(out.getvalue(), "webp")
 
 

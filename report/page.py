@@ -10,7 +10,7 @@ import jinja2
 from PIL import Image
 
 from . import encode, view
-from .collect import DEMO, Collected, machine_text
+from .collect import DEMO, Collected
 from .scenes import Comparison, compare, inside
 
 HERE = Path(__file__).resolve().parent
@@ -47,7 +47,7 @@ def _environment() -> jinja2.Environment:
     made.globals.update(
         table_rows=view.table_rows, numeric=view.numeric, figures=view.figures, first_pair=view.first_pair
     )
-    made.filters.update(slug=view.slug, day=view.day, machine=machine_text)
+    made.filters.update(slug=view.slug, day=view.day)
     made.globals["inline"] = lambda name: jinja2.utils.markupsafe.Markup((HERE / "templates" / name).read_text())
     return made
 
@@ -96,6 +96,8 @@ def build(found: Collected) -> Page:
             results=found.results,
             titles={one.name: one.title for one in found.results},
             problems=found.problems,
+            **view.summary(found.results),
+            thumbs={scene: encode.thumb(view.shown(group[0])) for scene, group in _by_scene(rest).items()},
             plots=plots,
             demo=demo,
             scenes=_by_scene(rest),

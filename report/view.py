@@ -8,8 +8,11 @@ import re
 from dataclasses import dataclass
 from datetime import datetime
 
+from PIL import Image
+
 from bench.result import Picture, Result, Table
 
+from .collect import machine_text
 from .scenes import Comparison, Shot
 
 ENERGY_TOLERANCE = 0.02
@@ -95,6 +98,24 @@ def day(made: str) -> str:
         return datetime.strptime(made, "%Y-%m-%dT%H:%M:%S%z").strftime("%Y-%m-%d %H:%M")
     except ValueError:
         return made
+
+
+def summary(results: list[Result]) -> dict[str, object]:
+    """What stands at the top: days, commits and machines, each once; how many are reduced, how many incomplete."""
+    days = sorted(day(one.made)[:10] for one in results if one.made)
+    return {
+        "span": " to ".join(dict.fromkeys([days[0], days[-1]])) if days else "date unknown",
+        "commits": list(dict.fromkeys(one.commit or "unknown" for one in results)),
+        "machines": list(dict.fromkeys(machine_text(one.machine) or "unknown machine" for one in results)),
+        "reduced": sum(one.reduced for one in results),
+        "incomplete": sum(not one.complete for one in results),
+    }
+
+
+def shown(comparison: Comparison) -> Image.Image:
+    """The picture that stands for a scene: the reference, or what the slider begins with."""
+    reference = comparison.reference
+    return (reference or comparison.shots[first_pair(comparison)[1]]).image
 
 
 def verdict_counts(results: list[Result]) -> dict[str, int]:

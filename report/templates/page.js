@@ -90,6 +90,41 @@ function sortable(table) {
   });
 }
 
+// Scenes as tabs: one is seen at a time; the address may name it.
+function tabs(list) {
+  const links = [...list.querySelectorAll("a")];
+  const panels = links.map((link) => document.getElementById(link.hash.slice(1)));
+  list.setAttribute("role", "tablist");
+  list.setAttribute("aria-label", "Scenes");
+
+  function show(index) {
+    links.forEach((link, i) => {
+      link.setAttribute("aria-selected", String(i === index));
+      link.tabIndex = i === index ? 0 : -1;
+      panels[i].classList.toggle("away", i !== index);
+    });
+  }
+
+  links.forEach((link, i) => {
+    link.setAttribute("role", "tab");
+    link.setAttribute("aria-controls", panels[i].id);
+    panels[i].setAttribute("role", "tabpanel");
+    link.addEventListener("click", (event) => {
+      event.preventDefault();
+      show(i);
+    });
+    link.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      const to = event.key === " " ? i : (i + step + links.length) % links.length;
+      if (Number.isNaN(to)) return;
+      event.preventDefault();
+      show(to);
+      links[to].focus();
+    });
+  });
+  show(Math.max(0, links.findIndex((link) => link.hash === location.hash)));
+}
+
 function theme(button) {
   const root = document.documentElement;
   const dark = () => root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
@@ -105,3 +140,4 @@ document.documentElement.classList.add("js");
 document.querySelectorAll(".compare").forEach(slider);
 document.querySelectorAll("table.sortable").forEach(sortable);
 document.querySelectorAll("button.theme").forEach(theme);
+document.querySelectorAll(".jump").forEach(tabs);
