@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import caustics, exr, guided, metrics, peer_scenes, reference, runs, scene_list, store
+from . import exr, guided, metrics, peer_scenes, reference, runs, scene_list, store, verdicts
 from .engines import Job
 
 HYBRID = runs.METHODS["PTPPM"]
@@ -134,7 +134,7 @@ def notes(rows: list[dict]) -> list[str]:
             continue
         if row["choice"] == "PT" and row["scene"] in SOFT:
             over = 1.0 / row["cost"]
-            word = "above" if over > 1.0 + caustics.TIE else "not above"
+            word = "above" if over > 1.0 + verdicts.TIE else "not above"
             out.append(f"{row['scene']}: PTPPM's relMSE · CPU s is {over:.2f} of PT's: {word} PT")
         elif row["cost"] < 0.9 or row["cost_caustic"] < 0.9:
             costs = f"{row['cost']:.2f} of the default's cost, {row['cost_caustic']:.2f} in the caustics"
@@ -143,7 +143,7 @@ def notes(rows: list[dict]) -> list[str]:
 
 
 def run(options, found) -> int:
-    engine = caustics.engine_of(found)
+    engine = runs.engine_of(found)
     records = store.Store(options.cache / "choices.jsonl", options.budget)
     names = options.choices.split(",")
     rows = []

@@ -6,7 +6,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from . import caustics, peer_scenes, products, store
+from . import peer_scenes, products, runs, store
 
 COLUMNS = {"scene": "", "mark": "g", "product": "", "runs": "d", "cpu": ".1f", "samples": ".0f"}
 COLUMNS |= peer_scenes.COLUMNS | {"relmse_trim": ".5f", "flip": ".4f"}
@@ -80,7 +80,7 @@ def judge(rows: list[dict], rivals: list[str]) -> list[str]:
 
 
 def run(options, found) -> int:
-    engine = caustics.engine_of(found)
+    engine = runs.engine_of(found)
     marks = sorted(float(mark) for mark in options.marks.split(","))
     records = store.Store(options.cache / "peers.jsonl", options.budget)
     setup = products.Setup(records, options.cache.resolve(), options.peers.resolve(), engine, options.threads)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from . import caustics, guided, peer_scenes, runs, scene_list, store, thesis
+from . import guided, peer_scenes, runs, scene_list, store, thesis
 from .engines import Job
 
 STAGES = {"build": ("build",), "camera": ("camera",), "trace": ("photon_trace",)}
@@ -73,7 +73,7 @@ def stages(records, options, engine) -> list[dict]:
 
 
 def run(options, found) -> int:
-    engine = caustics.engine_of(found)
+    engine = runs.engine_of(found)
     records = store.Store(options.cache / "photons.jsonl", options.budget)
     if options.part in ("all", "stages"):
         rows = stages(records, options, engine)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Efficiency of an engine over its rival's, scene by scene; error over CPU time."""
+"""Efficiency of an engine over its rival's, scene by scene; error over CPU time and over samples."""
 
 from __future__ import annotations
 
@@ -34,8 +34,16 @@ def efficiency(rows: list[dict], ours: str, rival: str, path: Path) -> bool:
     return True
 
 
-def curves(rows: list[dict], path: Path, figure: str = "rmse") -> bool:
-    """Writes the error over CPU seconds, a panel a scene and a line a method; False without matplotlib."""
+STYLES = {"PTPPM": ("#d55e00", "o"), "PT": ("#0072b2", "s"), "SPPM": ("#009e73", "^")}
+"""Colours that differ for all kinds of sight."""
+
+
+def curves(rows: list[dict], path: Path, floors: dict[str, float], figure: str = "rmse", name: str = "RMSE") -> bool:
+    """Writes error and energy over CPU seconds, a panel a scene and a line a method; False without matplotlib.
+
+    `floors`: each reference's own expected error. Bands reach from the least to the greatest of the seeds
+    (`<figure>_low`, `<figure>_high`).
+    """
     try:
         import matplotlib
     except ImportError:
@@ -44,21 +52,43 @@ def curves(rows: list[dict], path: Path, figure: str = "rmse") -> bool:
     from matplotlib import pyplot
 
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    picture, panels = pyplot.subplots(1, max(len(scenes), 1), figsize=(4.2 * max(len(scenes), 1), 3.8), squeeze=False)
-    for scene, axes in zip(scenes, panels[0]):
-        for method, mark in (("PT", "s"), ("PTPPM", "o"), ("SPPM", "^")):
+    picture, panels = pyplot.subplots(
+        2,
+        len(scenes),
+        figsize=(3.6 * len(scenes), 4.8),
+        squeeze=False,
+        sharex="col",
+        height_ratios=(3, 1),
+        layout="constrained",
+    )
+    for column, scene in enumerate(scenes):
+        upper, lower = panels[:, column]
+        for method, (color, mark) in STYLES.items():
             own = [row for row in rows if row["scene"] == scene and row["method"] == method]
-            axes.loglog([r["cpu"] for r in own], [r[figure] for r in own], marker=mark, label=method)
-        axes.set_title(scene)
-        axes.set_xlabel("CPU seconds")
-        axes.set_ylabel(figure)
-        axes.grid(True, which="both", linewidth=0.3)
+            if not own:
+                continue
+            cpu = [row["cpu"] for row in own]
+            low, high = ([row.get(f"{figure}_{end}", row[figure]) for row in own] for end in ("low", "high"))
+            upper.fill_between(cpu, low, high, color=color, alpha=0.18, linewidth=0)
+            upper.loglog(cpu, [row[figure] for row in own], color=color, marker=mark, markersize=4.5, label=method)
+            lower.semilogx(cpu, [100 * (row["energy"] - 1) for row in own], color=color, marker=mark, markersize=3.5)
+        if floors.get(scene):
+            upper.axhline(floors[scene], color="0.35", linestyle=":", linewidth=1.2, label="reference's own error")
+        lower.axhline(0.0, color="0.35", linewidth=0.7)
+        upper.set_title(scene, fontsize=11)
+        lower.set_xlabel("CPU seconds")
         marks = sorted({row["mark"] for row in rows})
-        axes.set_xticks(marks, [f"{mark:g}" for mark in marks])
-        axes.set_xticks([], minor=True)
-    panels[0][0].legend()
-    picture.tight_layout()
-    picture.savefig(path, dpi=120)
+        lower.set_xticks(marks, [f"{mark:g}" for mark in marks])
+        lower.set_xticks([], minor=True)
+        reach = max(0.5, *(110 * abs(row["energy"] - 1) for row in rows))
+        lower.set_ylim(-reach, reach)
+        for axes in (upper, lower):
+            axes.grid(True, which="both", linewidth=0.3, color="0.8")
+            axes.spines[["top", "right"]].set_visible(False)
+    panels[0][0].set_ylabel(name)
+    panels[1][0].set_ylabel("energy, % off\nthe reference")
+    picture.legend(*panels[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=4, frameon=False)
+    picture.savefig(path, dpi=150)
     pyplot.close(picture)
     return True
 

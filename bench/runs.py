@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +20,14 @@ METHODS = {
     "SPPM": ("integrator=photon_mapping", "photons=65536"),
 }
 """SPPM has a photon a pixel of the peers' scenes: of the counts that were tried the one with the lowest error."""
+
+
+def engine_of(found: dict[str, Engine]) -> Engine:
+    """Our command line program. Ends the program with one sentence when it cannot run."""
+    engine = found["cardioid-cli"]
+    if engine.problem():
+        sys.exit(f"{engine.key} cannot run: {engine.problem()}")
+    return engine
 
 
 def identity(kind: str, engine: Engine, job: Job) -> tuple:
