@@ -184,8 +184,9 @@ void GraphCompiler::bump_displacement() {
     if (out.node < 0 || context_.kind != GraphKind::material || is_closure(out.node)) return;
     if (context_.displacement_method == scene::DisplacementMethod::displacement) return;
     NodeContext c(*this, out.node, Shift::none, nullptr);
-    // Blender 4.5 and later make the step a tenth of a pixel.
-    const float before = set_step(c.property("version", 1) >= 2 ? 0.1f : 1.0f);
+    // Before Blender 3.6 reflections are kept above the surface; 4.5 and later make the step a tenth of a pixel.
+    const auto version = static_cast<int>(c.property("version", 1));
+    const float before = set_step(version >= 3 ? 0.1f : 1.0f);
     undisplaced_ = moved_;
     Ref height[3];
     bool found = true;
@@ -201,6 +202,7 @@ void GraphCompiler::bump_displacement() {
         const Ref one = builder_.constant(1);
         const Ref dx = builder_.subtract(height[1], height[0]), dy = builder_.subtract(height[2], height[0]);
         normal_ = moved_ ? bumped_in_object_space(c, normal_, dx, dy, one, one) : bumped(c, normal_, dx, dy, one, one);
+        if (version < 2) normal_ = builder_.emit3(Op::bend_normal, {normal_.x, normal_.y, normal_.z});
         builder_.set_normal(normal_);
     }
     undisplaced_ = false;

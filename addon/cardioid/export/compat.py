@@ -21,7 +21,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "ies_2": (4, 1),                 # photometric files fade beyond their angles …
     "ies_3": (5, 0),                 # … and keep their last value, as before 4.1
     "vector_transform_2": (4, 4),    # normals are transformed by the inverse transpose
-    "bump_2": (3, 6),                # Bump's own normal may point below the surface
+    "bump_2": (3, 6),                # normals of Bump and of displacement may point below the surface
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
     "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
     "voronoi_2": (5, 0),             # another hash of the cells
@@ -44,8 +44,8 @@ NODE_SINCE = {
     "ShaderNodeTexIES": ("ies_2", "ies_3"),
     "ShaderNodeVectorTransform": "vector_transform_2",
     "ShaderNodeNormalMap": "normal_map_2",
-    "ShaderNodeDisplacement": "displacement_2",
-    "ShaderNodeVectorDisplacement": "displacement_2",
+    "ShaderNodeDisplacement": ("bump_2", "displacement_2"),
+    "ShaderNodeVectorDisplacement": ("bump_2", "displacement_2"),
     "ShaderNodeTexVoronoi": "voronoi_2",
 }
 

@@ -112,6 +112,20 @@ def bump(scene):
 
 
 @case(wheels=True)
+def displacement_bump(scene):
+    """Displacement as bump, so strong that waves turn away from the view, under diffuse and glossy."""
+    g = kit.graph("ball")
+    at = g.node("TexCoord").outputs["Generated"]
+    height = g.node("TexWave", {"Vector": at, "Scale": 1.5}).outputs["Fac"]
+    moved = g.node("Displacement", {"Height": height, "Midlevel": 0.0, "Scale": 0.6}).outputs["Displacement"]
+    g.tree.links.new(moved, g.output.inputs["Displacement"])
+    diffuse = g.node("BsdfDiffuse", {"Color": (0.8, 0.4, 0.2, 1.0)})
+    glossy = g.node("BsdfGlossy", {"Color": (0.8, 0.4, 0.2, 1.0), "Roughness": 0.3})
+    mixed = g.node("MixShader", {0: 0.4, 1: diffuse.outputs[0], 2: glossy.outputs[0]})
+    kit.ball_stage(g.surface(mixed))
+
+
+@case(wheels=True)
 def normal_map(scene):
     """A tangent-space normal map of smooth bumps, strength 0.7."""
     v, u = np.mgrid[0:64, 0:64] / 64 * 4 * np.pi

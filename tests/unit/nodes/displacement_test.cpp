@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace cardioid {
 namespace {
@@ -50,6 +51,35 @@ TEST(Displacement, MethodsTellBumpFromMovedVertices) {
         EXPECT_EQ(knows(names, nodes::k_undisplaced), method == DisplacementMethod::both);
         EXPECT_EQ(g.info.lobes, 1);
     }
+}
+
+/// The bumped normal of a displacement so strong that some of the surface turns away from the viewer.
+std::unique_ptr<test::Machine> bumped(double version) {
+    scene::GraphDesc graph = displaced_diffuse();
+    graph.nodes[1].params["version"] = version;
+    nodes::CompileContext context;
+    nodes::Warnings warnings;
+    const auto g = nodes::compile(graph, context, warnings);
+    auto m = std::make_unique<test::Machine>();
+    isa_w1::run_program(g.of(Purpose::surface), m->chunk, m->out, m->scratch);
+    return m;
+}
+
+/// Least cosine, against the geometric normal, of mirrored views.
+float lowest_reflection(const test::Machine& m) {
+    float lowest = 1;
+    for (int i = 0; i < k_chunk; ++i) {
+        const Float3 n{m.out.normal[0][i], m.out.normal[1][i], m.out.normal[2][i]};
+        const Float3 o{m.chunk.wo[0][i], m.chunk.wo[1][i], m.chunk.wo[2][i]};
+        lowest = std::min(lowest, 2 * dot(n, o) * n.z - o.z);
+    }
+    return lowest;
+}
+
+TEST(Displacement, AsBumpKeepsReflectionsAboveTheSurfaceBefore36) {
+    EXPECT_GT(lowest_reflection(*bumped(1)), 0.0f);
+    EXPECT_LT(lowest_reflection(*bumped(2)), -0.3f);
+    EXPECT_LT(lowest_reflection(*bumped(3)), -0.3f);
 }
 
 TEST(Displacement, IsTheHeightAlongTheNormal) {
