@@ -9,9 +9,13 @@ Place = tuple[int, int]
 """Left and top corner of a square, in pixels from the top left."""
 
 
+SIDE = 44
+"""Of a crop's square, in pixels."""
+
+
 def side(height: int, width: int) -> int:
-    """Of a crop's square in pixels: a twelfth of the picture, between 16 and 48."""
-    return int(min(max(max(height, width) // 12, 16), 48, height, width))
+    """Of a crop's square in a picture of this size: at most a third of it."""
+    return max(1, min(SIDE, height // 3, width // 3))
 
 
 def difference(pictures: list[np.ndarray], reference: np.ndarray | None) -> np.ndarray:

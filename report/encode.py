@@ -7,7 +7,9 @@ import base64
 import io
 from pathlib import Path
 
-from PIL import Image, ImageOps
+from PIL import Image, ImageFile, ImageOps
+
+ImageFile.MAXBLOCK = 1 << 24  # progressive JPEG is written in one piece, which Pillow expects to be smaller
 
 MAX_SIDE = 1600
 """Pixels; larger pictures are shown smaller."""

@@ -107,6 +107,7 @@ def summary(results: list[Result]) -> dict[str, object]:
         "span": " to ".join(dict.fromkeys([days[0], days[-1]])) if days else "date unknown",
         "commits": list(dict.fromkeys(one.commit or "unknown" for one in results)),
         "machines": list(dict.fromkeys(machine_text(one.machine) or "unknown machine" for one in results)),
+        "processors": list(dict.fromkeys(machine_text({**one.machine, "system": ""}) for one in results)),
         "reduced": sum(one.reduced for one in results),
         "incomplete": sum(not one.complete for one in results),
     }

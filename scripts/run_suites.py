@@ -158,6 +158,11 @@ def python_tests() -> Counts:
     return pytest_suite("python", [TOOLS / "python", "-m", "pytest"], folders, 300)
 
 
+def report_tests() -> Counts:
+    """The page of scripts/report, also in headless Chromium."""
+    return pytest_suite("report", [ROOT / ".venv/browser/bin/python", "-m", "pytest"], ["tests/report"], 180)
+
+
 def in_blender(name: str, starter: list[str | Path]) -> Counts:
     """tests/blender inside one Blender, with preferences and scripts of its own."""
     with tempfile.TemporaryDirectory() as folder:
@@ -220,7 +225,7 @@ PARTS: dict[str, list[tuple[str, Callable[[], Counts]]]] = {
         ("rooms, licenses, file lengths", rooms),
         ("tests of the checks, kernel symbols", lint_tests),
     ],
-    "unit": [("C++", cpp_tests), ("Python", python_tests)],
+    "unit": [("C++", cpp_tests), ("Python", python_tests), ("report page", report_tests)],
     "blender": [
         ("Debian's Blender 3.4", blender_34),
         ("bpy 4.5", bpy_45),
