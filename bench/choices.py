@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import exr, guided, metrics, peer_scenes, reference, runs, scene_list, store, verdicts
+from . import exr, guided, metrics, outcome, peer_scenes, reference, result, runs, scene_list, titles, verdicts
+from . import options as common
 from .engines import Job
 
 HYBRID = runs.METHODS["PTPPM"]
@@ -55,8 +56,8 @@ class Judged:
 def add_arguments(commands) -> None:
     parser = commands.add_parser("choices", help="one setting of PTPPM changed at a time: what backs the defaults")
     peer_scenes.add_argument(parser)
-    parser.add_argument("--seconds", type=float, default=8.0, help="CPU seconds of a run by default (%(default)s)")
-    parser.add_argument("--seeds", type=int, default=3)
+    parser.add_argument("--seconds", type=float, default=0.0, help="CPU seconds of a run (2, or 8 with --full)")
+    parser.add_argument("--seeds", type=int, default=0, help="1, or 3 with --full")
     parser.add_argument("--choices", default=",".join(VARIANTS), help="comma-separated names")
     parser.add_argument(
         "--reference", type=float, default=24.0, help="samples of a reference over those of a run (%(default)s)"
@@ -126,31 +127,37 @@ def relative(rows: list[dict]) -> list[dict]:
     return rows
 
 
-def notes(rows: list[dict]) -> list[str]:
-    """Large lamps: PTPPM never above PT. Elsewhere: choices that beat the default on the caustics by over 10 %."""
+def judge(rows: list[dict]) -> list[result.Verdict]:
+    """Large lamps: PTPPM never above PT. Elsewhere: no choice beats the default by over 10 %."""
     out = []
     for row in rows:
         if row.get("cost") is None or row["choice"] == "default":
             continue
         if row["choice"] == "PT" and row["scene"] in SOFT:
             over = 1.0 / row["cost"]
-            word = "above" if over > 1.0 + verdicts.TIE else "not above"
-            out.append(f"{row['scene']}: PTPPM's relMSE · CPU s is {over:.2f} of PT's: {word} PT")
-        elif row["cost"] < 0.9 or row["cost_caustic"] < 0.9:
+            claim = f"{row['scene']}: under its large lamps PTPPM is not above PT"
+            holds = over <= 1.0 + verdicts.TIE
+            out.append(result.Verdict(claim, "bench", holds, f"relMSE · CPU s {over:.2f} of PT's"))
+        elif min(row["cost"], row["cost_caustic"]) < 1.0 - verdicts.TIE:
             costs = f"{row['cost']:.2f} of the default's cost, {row['cost_caustic']:.2f} in the caustics"
-            out.append(f"{row['scene']}, {row['choice']}: {costs}, energy {row['energy']:.4f}")
+            claim = f"{row['scene']}: the default is as good as `{row['choice']}`"
+            out.append(result.Verdict(claim, "bench", False, f"{costs}, energy {row['energy']:.4f}"))
     return out
 
 
 def run(options, found) -> int:
     engine = runs.engine_of(found)
-    records = store.Store(options.cache / "choices.jsonl", options.budget)
-    names = options.choices.split(",")
-    rows = []
+    records = common.records_of(options, "choices")
+    options.seconds = options.seconds or (8.0 if options.full else 2.0)
+    options.seeds = options.seeds or (3 if options.full else 1)
+    names, rows = options.choices.split(","), []
     for scene in scenes(records, options, engine):
         rows += compare(records, options, engine, scene, names)
         print(f"   {scene.name}: done", flush=True)
-    store.publish(rows, COLUMNS, options.cache / "choices")
-    for note in notes(rows):
-        print(note)
-    return 0 if rows else 1
+    out = result.Result(
+        "choices", "One setting of PTPPM changed at a time", "./scripts/bench choices --full", not options.full
+    )
+    out.tables = [result.Table("choices", "Equal samples; under 1 beats the default", titles.columns(COLUMNS), rows)]
+    out.verdicts = judge(rows)
+    out.versions = {"cardioid-render": engine.stamp()}
+    return outcome.finish(out, options, records)

@@ -45,6 +45,7 @@ def tables(film: filter_runs.Film, name: str) -> tuple[dict, dict] | None:
     times |= {"equal_samples": round(SAMPLES * cpu / plain.cpu) if plain else None}
     times |= {"render": record["stats"]["seconds"]["render"]}
     times |= {"rejection": found["rejection_seconds"], "filter": found["seconds"] - found["rejection_seconds"]}
+    times["filter_cpu"] = found["cpu_seconds"]
     sizes = {"scene": name, "who": "ours", "clusters": found["clusters"], "singles": found["singles"]}
     sizes |= {"megabytes": found["film_bytes"] / 1e6, "outliers": found["outlier_share"]}
     return times, sizes

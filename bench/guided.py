@@ -14,6 +14,7 @@ import numpy as np
 
 from . import exr, metrics, peer_scenes, reference, runs
 from .engines import Job
+from .result import Verdict
 
 SCENES = ("pool_sun", "open_plane", "twelve_lamps")
 COLUMNS = {"scene": "", "photons": "", "guided": "", "runs": "d", "samples": "d", "cpu": ".2f", "emitted": ".3e"}
@@ -130,26 +131,28 @@ def compare(records, options, engine, scene) -> list[dict]:
     return rows
 
 
-def judge(rows: list[dict]) -> list[str]:
+def judge(rows: list[dict]) -> list[Verdict]:
     """The bars: 5 times the gathered photons per emitted one at equal error or less; never slower beyond 5 %."""
     out = []
     for scene in dict.fromkeys(row["scene"] for row in rows):
         by = {(row["photons"], row["guided"]): row for row in rows if row["scene"] == scene}
+        more_claim = (
+            f"{scene}: guided emission gathers {MORE_GATHERED:g} times the photons per emitted one, errs no more"
+        )
         if len(by) < 4:
-            out.append(f"{scene}: out of time; run the command again to go on")
+            out.append(Verdict(more_claim, "bench", None, "out of time; run the command again to go on"))
             continue
         on, off = by["half", "yes"], by["half", "no"]
         more = on["gathered_per_emitted"] / max(off["gathered_per_emitted"], 1e-12)
         error, own = on["relmse_trim"] / off["relmse_trim"], on["relmse_C1_trim"] / off["relmse_C1_trim"]
-        met = "met" if more >= MORE_GATHERED and max(error, own) <= 1.0 else "missed"
-        out.append(
-            f"{scene}: guided emission gathers {more:.1f} times as many photons per emitted one at {error:.2f} of the "
-            f"trimmed relMSE ({own:.2f} of that of C1): {met}"
-        )
+        figures = f"{more:.1f} times at {error:.2f} of the trimmed relMSE ({own:.2f} of that of C1)"
+        out.append(Verdict(more_claim, "bench", more >= MORE_GATHERED and max(error, own) <= 1.0, figures))
         auto = by["auto", "yes"]
         for what, a, b in (("guided emission", auto, by["auto", "no"]), ("balance", auto, on)):
             times = {key: a[key] * a["cpu"] / (b[key] * b["cpu"]) for key in FIGURES if key in a}
-            said = ", ".join(f"{value:.2f} to the same {key}" for key, value in times.items())
-            met = "met" if times[FIGURES[0]] <= SLOWER else "missed"
-            out.append(f"{scene}: share of the time with {what}: {said}: {met}")
+            figures = "share of the time: " + ", ".join(
+                f"{value:.2f} to the same {key}" for key, value in times.items()
+            )
+            claim = f"{scene}: with {what} the same error never takes more than {SLOWER:g} of the time"
+            out.append(Verdict(claim, "bench", times[FIGURES[0]] <= SLOWER, figures))
     return out

@@ -134,3 +134,46 @@ def over_samples(rows: list[dict], path: Path, figure: str = "relmse") -> bool:
     picture.savefig(path, dpi=120)
     pyplot.close(picture)
     return True
+
+
+PARTS = {
+    "camera": ("path tracing (with gathering in ours)", "#0072b2"),
+    "gather": ("gathering", "#56b4e9"),
+    "trace": ("photon tracing", "#d55e00"),
+    "index": ("indexing", "#e69f00"),
+    "learn": ("learning", "#cc79a7"),
+    "picture": ("picture", "#999999"),
+    "build": ("building the scene", "#444444"),
+}
+
+
+def stages(rows: list[dict], path: Path) -> bool:
+    """Writes the stages' shares of each row's time as bars, scene by scene (Table 5.2); False without matplotlib."""
+    try:
+        import matplotlib
+    except ImportError:
+        return False
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    picture, panels = pyplot.subplots(
+        1, max(len(scenes), 1), figsize=(3.4 * len(scenes) + 1.2, 3.0), squeeze=False, sharey=True, layout="constrained"
+    )
+    for scene, axes in zip(scenes, panels[0]):
+        own = sorted((row for row in rows if row["scene"] == scene), key=lambda row: row["method"], reverse=True)
+        start = [0.0] * len(own)
+        for key, (name, color) in PARTS.items():
+            values = [100 * (row.get(key) or 0.0) for row in own]
+            axes.barh([row["method"] for row in own], values, 0.75, left=start, color=color, label=name)
+            start = [a + b for a, b in zip(start, values)]
+        axes.set_title(scene, fontsize=11)
+        axes.set_xlabel("% of the time")
+        axes.set_xlim(0, 100)
+        axes.spines[["top", "right"]].set_visible(False)
+    picture.legend(
+        *panels[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=7, frameon=False, fontsize=8
+    )
+    picture.savefig(path, dpi=150)
+    pyplot.close(picture)
+    return True

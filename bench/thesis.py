@@ -28,7 +28,12 @@ def shares(scene: str, method: str) -> dict[str, float]:
     """The stages' shares of Table 5.2's time."""
     _, _, camera, trace, gather, picture = TABLE_5_2[scene, method]
     total = camera + trace + gather + picture
-    return {"camera": camera / total, "trace": trace / total, "gather": gather / total}
+    return {
+        "camera": camera / total,
+        "trace": trace / total,
+        "gather": gather / total,
+        "picture": picture / total,
+    }
 
 
 TABLE_6_1 = {
