@@ -106,6 +106,9 @@ def collect(cache: Path) -> Collected:
     out.results.sort(key=lambda r: (rank.get(r.name, len(rank)), r.name))
     out.problems += _mixed(out.results, "commits", lambda r: r.commit)
     out.problems += _mixed(out.results, "machines", lambda r: machine_text(r.machine))
+    stopped = [r.name for r in out.results if not r.complete]
+    if stopped:
+        out.problems.append(f"Incomplete, the time budget ended first: {', '.join(stopped)}; run it again to go on")
     dirty = [r.name for r in out.results if r.commit.endswith("+")]
     if dirty:
         out.problems.append(f"Files differed from the commit when these ran: {', '.join(dirty)}")

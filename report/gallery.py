@@ -13,6 +13,8 @@ from .collect import DEMO
 from .scenes import Comparison, Shot
 
 ROOT = Path(__file__).resolve().parents[1]
+PEERS = "peers"
+"""The result whose pictures stand beside each other in the docs."""
 LIMIT = 200_000
 """Bytes of a picture in the docs."""
 GAP = 6
@@ -87,7 +89,7 @@ def write(docs: Path, comparisons: list[Comparison]) -> str:
         " checkout, the add-on being installed. Written by `./scripts/report --demo --gallery docs`.\n"
     ]
     parts += [_demo_part(c, what.get(c.scene, ""), folder) for c in comparisons if c.result == DEMO]
-    pairs = [c for c in comparisons if c.result != DEMO and len(c.shots) > 1]
+    pairs = [c for c in comparisons if c.result == PEERS and len(c.shots) > 1]
     if pairs:
         parts.append(
             "## Beside other renderers\n\nrelMSE is the error against the reference, energy the mean over the"

@@ -73,19 +73,31 @@ def ours(shot: Shot) -> bool:
     return bool(re.search(r"cardioid|ptppm|clusters", shot.picture.label, re.IGNORECASE)) and not shot.picture.reference
 
 
+def filtered(shot: Shot) -> bool:
+    """Whether a noise filter went over the picture, by its label."""
+    return bool(re.search(r"filter|clusters|denois|oidn", shot.picture.label, re.IGNORECASE))
+
+
 def first_pair(comparison: Comparison) -> tuple[int, int]:
     """Indices of the pictures that the slider begins with: a rival left, ours with the least error right.
 
-    The rival is Cycles where it is there, of its runs the one nearest in CPU seconds; without a rival the reference.
+    Unfiltered ones, where there are any. The rival is Cycles where it is there, of its runs the one nearest in CPU
+    seconds; without a rival the reference.
     """
     shots = comparison.shots
     rivals = [s for s in shots if not s.picture.reference and not ours(s)]
-    right = min([s for s in shots if ours(s)] or rivals[-1:] or shots[-1:], key=lambda s: _or_big(s.picture.error))
-    rivals = [s for s in rivals if s is not right]
+    own = _unfiltered([s for s in shots if ours(s)])
+    right = min(own or rivals[-1:] or shots[-1:], key=lambda s: _or_big(s.picture.error))
+    rivals = _unfiltered([s for s in rivals if s is not right])
     cycles = [s for s in rivals if "cycles" in s.picture.label.lower()]
     others = cycles or rivals or [s for s in shots if s is not right]
     left = min(others, key=lambda s: abs(_or_big(s.picture.cpu) - _or_big(right.picture.cpu)))
     return shots.index(left), shots.index(right)
+
+
+def _unfiltered(shots: list[Shot]) -> list[Shot]:
+    """Those without a filter, or all if all have one."""
+    return [s for s in shots if not filtered(s)] or shots
 
 
 def _or_big(value: float | None) -> float:

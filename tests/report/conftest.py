@@ -57,8 +57,8 @@ def peers(cache: Path) -> Result:
     columns = {"renderer": ["renderer", ""], "relmse": ["relMSE", ".3f"], "cpu": ["CPU s", ".1f"]}
     rows = [
         {"renderer": "Cycles", "relmse": 0.4567, "cpu": 100.0},
-        {"renderer": "Cardioid", "relmse": 0.012, "cpu": 30.0},
         {"renderer": HTML, "relmse": None, "cpu": 9.0},
+        {"renderer": "Cardioid", "relmse": 0.012, "cpu": 30.0},
     ]
     return Result(
         "peers",

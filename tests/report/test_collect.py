@@ -81,6 +81,11 @@ def test_other_commits_and_machines_are_told(cache: Path) -> None:
     assert "Files differed from the commit when these ran: rays" in problems
 
 
+def test_incomplete_runs_are_named(cache: Path) -> None:
+    other(cache, complete=False)
+    assert any("Incomplete" in text and "rays" in text for text in collect.collect(cache).problems)
+
+
 def test_a_missing_picture_and_plot_are_told(cache: Path) -> None:
     where = cache / "results" / "peers"
     (where / "cornell-cycles.png").unlink()
