@@ -52,6 +52,18 @@ void fill_points(Walk& walk, int program, const ShadedPoint& at, Mask here, int 
 
 }  // namespace
 
+namespace {
+
+/// Length of a camera ray before the near clip, where Cycles' rays start and Ray Length counts from; 0 for others.
+Float before_near_clip(const trace::CameraView& camera, Vec3 d, Int flags) {
+    const auto& m = camera.desc.transform.m;
+    const Vec3 axis = normalize(Vec3{-m[2], -m[6], -m[10]});
+    const Float along = max(dot(d, axis), 1e-6f);
+    return select((flags & Int(nodes::ray_camera)) != Int(0), camera.desc.clip_start / along, Float(0.0f));
+}
+
+}  // namespace
+
 void Walk::fill_shading(int material, const std::int32_t* list, int n) {
     nodes::ShadingChunk& s = scratch.shading;
     const nodes::ProgramInfo& info = scene.materials[material].info;
@@ -98,6 +110,7 @@ void Walk::fill_shading(int material, const std::int32_t* list, int n) {
             store(s.glossy_depth + i, to_float(byte_of(depth, 2)));
             store(s.transmission_depth + i, to_float(byte_of(depth, 3)));
             store(s.transparent_depth + i, to_float(surfaces_passed(gather(rays.transparent, ray))));
+            store(s.ray_length + i, t - before_near_clip(scene.camera, d, flags));
         }
     }
 }

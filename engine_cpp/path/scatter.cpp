@@ -76,7 +76,7 @@ void Tracer::scatter(path::VertexChunk& chunk, const std::int32_t* list) {
         const Vec3 p = cardioid::CD_ISA_NS::load3(s.position, i),
                    ng = cardioid::CD_ISA_NS::load3(s.normal_geometric, i);
         const Vec3 n = cardioid::CD_ISA_NS::load3(s.normal, i), wo = cardioid::CD_ISA_NS::load3(s.wo, i);
-        const Float t = load(s.ray_length + i);
+        const Float t = gather(scratch.hits.t, ray);
         const Float min_pdf = gather(rays.min_pdf, ray);
 
         // A holdout cuts its hole into the view alone: bounced light meets the object itself, as in Cycles.

@@ -102,6 +102,17 @@ std::vector<std::uint32_t> welded_edges(const MeshDesc& mesh, const std::vector<
     return once;
 }
 
+/// The host's normals of the vertices, or those of the triangles.
+std::vector<Float3> given_normals(const MeshDesc& mesh) {
+    for (const scene::AttributeDesc& a : mesh.attributes) {
+        if (a.name != k_vertex_normal || a.domain != scene::Domain::point || a.channels != 3) continue;
+        std::vector<Float3> normals(a.data.size() / 3);
+        for (std::size_t v = 0; v < normals.size(); ++v) normals[v] = {a.data[3 * v], a.data[3 * v + 1], a.data[3 * v + 2]};
+        return normals;
+    }
+    return vertex_normals(mesh);
+}
+
 float angle_between(Float3 a, Float3 b) { return std::acos(std::clamp(dot(a, b), -1.0f, 1.0f)); }
 
 }  // namespace
@@ -146,7 +157,7 @@ std::vector<float> pointiness(const MeshDesc& mesh) {
     const std::vector<std::uint32_t> edges = welded_edges(mesh, original);
     const std::size_t count = original.size();
     std::vector<Float3> normal(count), along(count);
-    const std::vector<Float3> own = vertex_normals(mesh);
+    const std::vector<Float3> own = given_normals(mesh);
     for (std::size_t v = 0; v < count; ++v) normal[original[v]] = normal[original[v]] + own[v];
     std::vector<float> neighbours(count, 0.0f);
     for (std::size_t e = 0; e < edges.size(); e += 2) {

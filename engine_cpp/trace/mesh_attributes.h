@@ -20,8 +20,12 @@ std::vector<Float3> vertex_normals(const scene::MeshDesc& mesh);
 /// the part's representative vertex, which depends on the order of the edges.
 std::vector<float> random_per_island(const scene::MeshDesc& mesh);
 
+/// Attribute that a host whose faces are polygons may give: unit normals of the vertices, three channels per point.
+inline constexpr const char* k_vertex_normal = "#vertex_normal";
+
 /// Geometry ▸ Pointiness for each vertex: over 0.5 where the surface is convex, under it where it is concave. The mean of the
-/// angle between the normal and the edges, blurred once with the neighbours; vertices at one place count as one.
+/// angle between the normal (the host's, or else vertex_normals) and the edges, blurred once with the neighbours; vertices at
+/// one place count as one.
 std::vector<float> pointiness(const scene::MeshDesc& mesh);
 
 }  // namespace cardioid::trace

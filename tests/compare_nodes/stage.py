@@ -263,6 +263,8 @@ def place(name: str, kind: str, material: bpy.types.Material, column: int, row: 
         if kind in ("through", "glass", "mirror"):
             meshes[kind, "cover"] = cover_material(kind)
     data = meshes[kind]
+    if kind == "placed":  # Cycles copies meshes whose material is the object's, which shows where scale is uneven
+        data = data.copy()
     item = bpy.data.objects.new(name, data)
     while len(data.materials) < (2 if (kind, "cover") in meshes else 1):
         data.materials.append(None)

@@ -58,6 +58,8 @@ def add(scene: Any, name: str, mesh: Any, wanted: Set[str], warnings: list[str],
     attributes = layers(mesh, tris, wanted, name, warnings)
     attributes += _tangents(attributes, {uv or active_uv for uv in read.tangents}, positions, tris, normals)
     attributes += _undeformed(mesh, positions, generated_min, generated_size)
+    if read.edges:
+        attributes.append(("#vertex_normal", "point", foreach(mesh.vertices, "normal", np.float32, 3)))
     return scene.add_mesh(
         name, positions, tris.vertices,
         slots=_slots(mesh, tris),

@@ -15,7 +15,7 @@ _ODD = np.uint64(0x9E3779B97F4A7C15)
 
 
 def corner_tangents(positions: np.ndarray, vertices: np.ndarray, normals: np.ndarray, uvs: np.ndarray) -> np.ndarray:
-    """(T, 3, 4): unit tangent in object space and the sign of the bitangent. Zero where the UVs have no direction.
+    """(T, 3, 4): unit tangent in object space and the sign of the bitangent. (1, 0, 0) where UVs have no direction.
 
     positions (V, 3), vertices (T, 3) indices, normals (T, 3, 3) unit, uvs (T, 3, 2); all float32.
     """
@@ -33,6 +33,7 @@ def corner_tangents(positions: np.ndarray, vertices: np.ndarray, normals: np.nda
     orientation = np.where(usable[:, None], orientation[:, None], positive)
     found = np.empty((*vertices.shape, 4), np.float32)
     found[..., :3] = _unit(sums[2 * group + orientation])
+    found[~found[..., :3].any(-1), 0] = 1
     found[..., 3] = np.where(orientation, 1, -1)
     return found
 

@@ -75,6 +75,16 @@ TEST(MeshAttributes, PointinessIsHighOnDomesLowInBowlsAndHalfOnPlanes) {
     for (const float p : plane) EXPECT_NEAR(p, 0.5f, 1e-6f);
 }
 
+TEST(MeshAttributes, PointinessTakesTheHostsNormals) {
+    scene::MeshDesc mesh = bent_grid(0);
+    std::vector<float> tilted;
+    for (int v = 0; v < 49; ++v) tilted.insert(tilted.end(), {1, 0, 0});
+    mesh.attributes.push_back({trace::k_vertex_normal, scene::Domain::point, 3, tilted});
+    const auto got = trace::pointiness(mesh);
+    EXPECT_LT(got[21], 0.3f) << "at the low end of x the edges go along the normal";
+    EXPECT_GT(got[27], 0.7f);
+}
+
 TEST(MeshAttributes, IslandsAreConnectedParts) {
     scene::MeshDesc mesh = cube();
     const std::size_t one = mesh.triangles.size();
