@@ -143,7 +143,7 @@ private:
 }  // namespace
 
 std::vector<float> ramp_table(const std::vector<double>& values, const std::string& interpolation,
-                              const std::string& color_mode, const std::string& hue) {
+                              const std::string& color_mode, const std::string& hue, int entries) {
     std::vector<Stop> stops;
     for (std::size_t k = 0; k + 5 <= values.size(); k += 5) {
         const auto at = [&](std::size_t i) { return static_cast<float>(values[k + i]); };
@@ -153,9 +153,9 @@ std::vector<float> ramp_table(const std::vector<double>& values, const std::stri
     std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.position < b.position; });
     const Ramp ramp(std::move(stops), interpolation, color_mode, hue);
     std::vector<float> table;
-    table.reserve(static_cast<std::size_t>(k_table_size) * 4);
-    for (int i = 0; i < k_table_size; ++i) {
-        const Color c = ramp.at(static_cast<float>(i) / static_cast<float>(k_table_size - 1));
+    table.reserve(static_cast<std::size_t>(entries) * 4);
+    for (int i = 0; i < entries; ++i) {
+        const Color c = ramp.at(static_cast<float>(i) / static_cast<float>(entries - 1));
         table.insert(table.end(), c.begin(), c.end());
     }
     return table;

@@ -60,9 +60,11 @@ void rgb_to_bw(NodeContext& c) { c.number_out("Val", c.b.luminance(c.color("Colo
 
 void color_ramp(NodeContext& c) {
     const std::string interpolation = c.text("ramp_interpolation", "LINEAR");
-    const std::vector<float> table =
-        ramp_table(c.list("ramp"), interpolation, c.text("ramp_color_mode", "RGB"), c.text("ramp_hue", "NEAR"));
-    const Results r = c.b.emit_all(Op::ramp, {c.number("Fac", 0.5f)}, interpolation != "CONSTANT", c.b.add_data(table));
+    const int entries = c.property("version", 1) >= 2 ? k_most_entries : k_most_entries - 1;
+    const std::vector<float> table = ramp_table(c.list("ramp"), interpolation, c.text("ramp_color_mode", "RGB"),
+                                                c.text("ramp_hue", "NEAR"), entries);
+    const Results r = c.b.emit_all(Op::ramp, {c.number("Fac", 0.5f)}, table_imm(entries, interpolation != "CONSTANT"),
+                                   c.b.add_data(table));
     c.color_out("Color", {r[0], r[1], r[2]});
     c.number_out("Alpha", r[3]);
 }
@@ -70,12 +72,13 @@ void color_ramp(NodeContext& c) {
 /// The curve of one channel at x; a missing table leaves x as it is.
 Ref curve(NodeContext& c, const char* name, Ref x) {
     const std::vector<double> values = c.list(name);
-    if (values.size() != static_cast<std::size_t>(k_table_size)) return x;
+    const int entries = static_cast<int>(std::min<std::size_t>(values.size(), k_most_entries + 1));
+    if (entries < 2 || entries > k_most_entries) return x;
     const std::vector<float> table(values.begin(), values.end());
     const float low = static_cast<float>(c.property("curve_min", 0)),
                 high = static_cast<float>(c.property("curve_max", 1));
     const Ref place = c.b.divide(c.b.subtract(x, c.b.constant(low)), c.b.constant(high - low));
-    return c.b.emit(Op::curve, {place}, c.flag("curve_extrapolate"), c.b.add_data(table));
+    return c.b.emit(Op::curve, {place}, table_imm(entries, c.flag("curve_extrapolate")), c.b.add_data(table));
 }
 
 Ref blended(NodeContext& c, Ref a, Ref b, Ref fac) {

@@ -58,8 +58,13 @@ enum IesMode : std::uint32_t {
     ies_is_round = 2,    ///< it goes on around the circle whatever its angles are
 };
 
-/// Entries of ramp and curve tables.
-inline constexpr int k_table_size = 256;
+/// Entries of a table of the ramp and curve ops: 257 since Blender 4.5, 256 before.
+inline constexpr int k_most_entries = 257;
+/// imm of these ops: the number of entries and a flag.
+constexpr std::uint32_t table_imm(int entries, bool flag) {
+    return static_cast<std::uint32_t>(entries) << 1 | (flag ? 1u : 0u);
+}
+constexpr int table_entries(std::uint32_t imm) { return static_cast<int>(imm >> 1); }
 
 enum class NoiseType : std::uint32_t { fbm, multifractal, hetero_terrain, hybrid_multifractal, ridged_multifractal };
 

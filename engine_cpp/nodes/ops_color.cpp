@@ -101,17 +101,18 @@ void op_mix_burn(const Machine& m, const Instruction& in) {
     });
 }
 
-/// A table of 256 colours with alpha. imm: 1 interpolates between entries.
+/// A table of colours with alpha, `table_entries(imm)` of them; bit 0 of imm: interpolate between entries.
 void op_ramp(const Machine& m, const Instruction& in) {
     const Source x = m.arg(in, 0);
     const float* table = m.view.data + in.data;
+    const int n = nodes::table_entries(in.imm);
     for (int i = 0; i < m.end; i += W) {
-        TablePlace at(x.at(i), nodes::k_table_size);
-        if (in.imm == 0) {
+        TablePlace at(x.at(i), n);
+        if ((in.imm & 1) == 0) {
             at.entry = select(at.t >= Float(1.0f), at.entry + Int(1), at.entry);
             at.t = 0.0f;
         }
-        const Int a = at.entry * Int(4), b = min(at.entry + Int(1), Int(nodes::k_table_size - 1)) * Int(4);
+        const Int a = at.entry * Int(4), b = min(at.entry + Int(1), Int(n - 1)) * Int(4);
         for (int k = 0; k < 4; ++k) {
             const Float low = gather(table + k, a), high = gather(table + k, b);
             store(m.dst(in, k) + i, (1.0f - at.t) * low + at.t * high);
@@ -119,16 +120,16 @@ void op_ramp(const Machine& m, const Instruction& in) {
     }
 }
 
-/// A table of 256 numbers over [0, 1]. imm: 1 goes on in a straight line outside.
+/// A table of numbers over [0, 1], `table_entries(imm)` of them; bit 0 of imm: goes on in a straight line outside.
 void op_curve(const Machine& m, const Instruction& in) {
     const Source source = m.arg(in, 0);
     const float* table = m.view.data + in.data;
-    constexpr int n = nodes::k_table_size;
+    const int n = nodes::table_entries(in.imm);
     for (int i = 0; i < m.end; i += W) {
         const Float x = source.at(i);
         const TablePlace at(x, n);
         Float y = (1.0f - at.t) * gather(table, at.entry) + at.t * gather(table, at.entry + Int(1));
-        if (in.imm != 0) {
+        if ((in.imm & 1) != 0) {
             const float steps = static_cast<float>(n - 1);
             y = select(x < Float(0.0f), Float(table[0]) + Float(table[1] - table[0]) * x * steps, y);
             y = select(x > Float(1.0f), Float(table[n - 1]) + Float(table[n - 1] - table[n - 2]) * (x - 1.0f) * steps,

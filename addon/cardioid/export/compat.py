@@ -24,6 +24,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "bump_2": (3, 6),                # normals of Bump and of displacement may point below the surface
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
     "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
+    "tables_2": (4, 5),              # ramps and curves have an entry more (seen in 4.5, not in 3.4)
     "voronoi_2": (5, 0),             # another hash of the cells
     "new_lamps": (4, 0),             # soft lamps are spheres or soft falloff disks; spots and suns lost a cosine
     "lamps_are_objects": (4, 5),     # nodes of lamps see all of their transform
@@ -47,6 +48,7 @@ NODE_SINCE = {
     "ShaderNodeDisplacement": ("bump_2", "displacement_2"),
     "ShaderNodeVectorDisplacement": ("bump_2", "displacement_2"),
     "ShaderNodeTexVoronoi": "voronoi_2",
+    "ShaderNodeValToRGB": "tables_2",
 }
 
 

@@ -12,7 +12,7 @@ from .image import Images
 from .image_files import absolute
 from .names import affine
 
-TABLE = 256  # entries of a curve table
+TABLE = 257 if compat.has("tables_2") else 256  # entries of a curve table
 
 _BASE = frozenset(bpy.types.ShaderNode.bl_rna.properties.keys()) | {"node_tree", "is_active_output"}
 _VALUE_NODES = ("ShaderNodeRGB", "ShaderNodeValue", "ShaderNodeNormal")  # the value sits in the output socket
