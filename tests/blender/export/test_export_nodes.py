@@ -94,7 +94,7 @@ def test_rgb_curves_apply_the_combined_curve_first():
     node.mapping.update()
     params = found()["params"]
     tables = [params[f"curve_table_{c}"] for c in "rgb"]
-    assert all(len(t) == 256 for t in tables)
+    assert all(len(t) == (257 if bpy.app.version >= (4, 5) else 256) for t in tables)
     assert tables[0][-1] == pytest.approx(0.25, abs=0.01) and tables[1][-1] == pytest.approx(0.5, abs=0.01)
     assert (params["curve_min"], params["curve_max"], params["curve_extrapolate"]) == (0, 1, True)
 
