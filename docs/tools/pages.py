@@ -17,6 +17,7 @@ _INDENTED = re.compile(r"(?:^|\n\n)(?: {4}[^\n]*(?:\n|$))+")
 _CODE = re.compile(r"`+[^`\n]+`+")
 _LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 _HTML = re.compile(r"<(?:img|a|script|link|source|iframe)\b[^>]*?\b(?:src|href)=\"([^\"]+)\"")
+_REFERENCE = re.compile(r"^\[[^\]]+\]:\s+(\S+)", re.MULTILINE)
 _HEADING = re.compile(r"^#{1,6} +(.+?)\s*#*$", re.MULTILINE)
 
 
@@ -42,7 +43,7 @@ def without_code(text: str) -> str:
 def links(page: Path) -> list[Link]:
     text = without_code(page.read_text())
     found = []
-    for target in [*_LINK.findall(text), *_HTML.findall(text)]:
+    for target in [*_LINK.findall(text), *_REFERENCE.findall(text), *_HTML.findall(text)]:
         path, _, anchor = target.partition("#")
         found.append(Link(page, unquote(path), anchor))
     return found
