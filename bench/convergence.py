@@ -110,12 +110,12 @@ def found_out(options, engine, scenes, curves, rows, marks, seeds: int) -> resul
         "convergence", "Error over CPU time: PT, PTPPM, SPPM", "./scripts/bench convergence --full", not options.full
     )
     title = "Error, energy and CPU seconds of the methods (thesis Fig. 5.11)"
-    note = f"Medians of {seeds} seeds. `reference`: the reference's own squared error as a share of the measured one."
+    note = f"Medians of {seeds} seeds. Last column: the reference's own squared error as a share of the measured one."
+    note = " ".join([note, *verdicts.notes(rows)])
     found.tables = [result.Table("convergence", title, titles.columns(COLUMNS), rows, note)]
     found.verdicts = [*verdicts.lowest(rows, peer_scenes.NAMES), verdicts.energies(rows), *verdicts.references(rows)]
     found.settings = {method: SETTINGS[method] for method in options.methods.split(",")}
     found.complete = points == wanted
-    found.tables[0].note += " " + "; ".join(verdicts.notes(rows))
     found.versions = {"cardioid-render": engine.stamp()}
     return found
 

@@ -94,12 +94,10 @@ def references(rows: list[dict]) -> list[Verdict]:
 
 
 def notes(rows: list[dict]) -> list[str]:
-    """What a reader of the rows must know: light that is missing, errors that are the reference's."""
+    """Rows whose light is not all there, or more than there is."""
     out = []
     for row in rows:
         name = f"{row['scene']}, {row['mark']:g} CPU s, {row['method']}"
         if abs(row["energy"] - 1) > ENERGY:
             out.append(f"{name}: energy differs from the reference by {row['energy'] - 1:+.2%}")
-        if row["reference"] > SHARE:
-            out.append(f"{name}: the reference's own error is {row['reference']:.0%} of the squared error")
     return out

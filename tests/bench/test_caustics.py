@@ -2,7 +2,6 @@
 """Curves, verdicts and bars of the caustic benchmarks, on programs that only pretend to render."""
 
 import dataclasses
-import sys
 
 import numpy as np
 import pytest
@@ -13,11 +12,8 @@ from bench import (
     exr,
     guided,
     peer_scenes,
-    peers,
     photons,
-    products,
     runs,
-    store,
     thesis,
     verdicts,
 )
@@ -110,50 +106,19 @@ def test_a_mark_that_was_met_roughly_is_brought_to_our_time():
 
 
 def test_a_wrong_energy_and_a_noisy_reference_are_named():
-    notes = verdicts.notes([row("PTPPM", 4.0, 0.1, energy=0.98, reference=0.4)])
-    assert any("-2.00%" in note for note in notes)
-    assert any("40%" in note for note in notes)
+    rows = [row("PTPPM", 4.0, 0.1, energy=0.98, reference=0.4), row("PT", 4.0, 0.2, reference=0.02)]
+    assert any("-2.00%" in note for note in verdicts.notes(rows))
+    assert not verdicts.energies(rows).holds
+    (verdict,) = verdicts.references(rows)
+    assert not verdict.holds and "40.0%" in verdict.figures and "1 of 2 rows" in verdict.figures
 
 
-def peer_row(product, whole, caustic, energy=1.0):
-    return {
-        "scene": "s",
-        "mark": 30.0,
-        "product": product,
-        "relmse": whole,
-        "relmse_caustic": caustic,
-        "energy": energy,
-    }
-
-
-def test_the_bar_is_below_every_rival_in_both_columns():
-    rows = [peer_row("cardioid", 0.01, 0.03), peer_row("lux_pgi", 0.02, 0.02), peer_row("cycles34", 0.1, 0.2)]
-    notes = peers.judge(rows, ["lux_pgi", "cycles34"])
-    assert any("whole: 0.50" in n and n.endswith(": met") for n in notes)
-    assert any("caustic: 1.50" in n and n.endswith("(lux_pgi): missed") for n in notes)
-    rows += [peer_row("mi_split", 0.01, 0.01)]
-    assert sum("goal met" in n for n in peers.judge(rows, ["lux_pgi"])) == 1
-    rows[0]["energy"] = 0.985
-    assert any("-1.50%" in n for n in peers.judge(rows, []))
-
-
-def test_every_product_is_first_once():
-    names = ["a", "b", "c"]
-    assert [peers.interleaved(names, seed)[0] for seed in (1, 2, 3)] == names
-    assert all(sorted(peers.interleaved(names, seed)) == names for seed in range(1, 9))
-
-
-def test_luxcore_pictures_are_moved_by_a_row(tmp_path):
-    pixels = np.arange(4.0)[:, None, None] * np.ones((4, 2, 3))
-    np.save(tmp_path / "a.npy", pixels)
-    assert list(peer_scenes.load_picture(tmp_path / "a.npy")[:, 0, 0]) == [1, 2, 3, 3]
-
-
-def test_a_folder_without_scenes_is_one_sentence(tmp_path):
-    with pytest.raises(SystemExit, match="no reference of the scene cornell"):
-        peer_scenes.load_all(tmp_path, ["cornell"])
-    with pytest.raises(SystemExit, match="no scene house"):
-        peer_scenes.load_all(tmp_path, ["house"])
+@pytest.mark.parametrize(("ours", "scenes", "holds"), ((0.09, "s", True), (0.2, "s", False), (0.09, "st", None)))
+def test_lowest_at_all_times_is_told_of_all_scenes_alone(ours, scenes, holds):
+    rows = [row("PT", 4.0, 0.2), row("SPPM", 4.0, 0.1), row("PTPPM", 4.0, ours)]
+    found = verdicts.lowest(rows, tuple(scenes))
+    assert [verdict.holds for verdict in found if "all three" in verdict.claim] == [holds, holds]
+    assert found[0].holds == (ours < 0.1)
 
 
 def test_the_scatter_of_seeds_is_the_noise_of_one_picture():
@@ -162,36 +127,6 @@ def test_the_scatter_of_seeds_is_the_noise_of_one_picture():
     mask = np.ones((80, 80), bool)
     assert peer_scenes.noise(pictures, mask) == pytest.approx(0.1, rel=0.03)
     assert peer_scenes.noise(pictures[:1], mask) is None
-
-
-def script_setup(tmp_path):
-    return products.Setup(store.Store(tmp_path / "r.jsonl"), tmp_path, tmp_path, None, 2)
-
-
-def scene_named(tmp_path):
-    return peer_scenes.PeerScene("s", tmp_path / "s.blend", np.ones((2, 2, 3)), {}, {})
-
-
-def test_a_script_is_run_once_and_its_result_kept(tmp_path):
-    (tmp_path / "run.py").write_text(
-        "import json, sys\n"
-        "out = sys.argv[sys.argv.index('--out') + 1]; mark = sys.argv[sys.argv.index('--marks') + 1]\n"
-        "open(f'{out}_{mark}.exr', 'w').close()\n"
-        "print('RESULT ' + json.dumps({'cpu': 30.5, 'spp': 12}))\n"
-    )
-    setup, product = script_setup(tmp_path), products.Script("p", sys.executable, "run.py")
-    first = product.render(setup, scene_named(tmp_path), 1, 30.0)
-    assert (first["cpu"], first["samples"]) == (30.5, 12)
-    (tmp_path / "run.py").unlink()
-    assert product.render(setup, scene_named(tmp_path), 1, 30.0) == first
-
-
-def test_a_script_that_fails_says_what_it_printed(tmp_path):
-    (tmp_path / "run.py").write_text("print('no device'); raise SystemExit(2)\n")
-    product = products.Script("p", sys.executable, "run.py")
-    with pytest.raises(RuntimeError, match=r"exit code 2: no device"):
-        product.render(script_setup(tmp_path), scene_named(tmp_path), 1, 30.0)
-    assert "is not there" in products.Script("p", str(tmp_path / "none"), "run.py").problem()
 
 
 def test_stage_shares_add_up():
