@@ -18,7 +18,7 @@ import surfaces  # noqa: E402
 
 
 def build() -> None:
-    scene = c.start(1200, 800, 256)
+    scene = c.start(960, 640, 128)
     pool.build()
     things.ladder(1.35, -1)
     things.ring((-1.05, -0.30, pool.LEVEL + 0.055), (math.radians(3), math.radians(-2), 0.4))

@@ -18,7 +18,7 @@ from swimmer import swimmer  # noqa: E402
 
 
 def build() -> None:
-    scene = c.start(1200, 900, 256)
+    scene = c.start(960, 720, 128)
     pool.build()
     things.ladder(1.35, -1)
     things.ring((0.9, 1.0, pool.LEVEL + 0.055), (0.05, -0.03, 0.4))
