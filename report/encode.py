@@ -14,6 +14,9 @@ ImageFile.MAXBLOCK = 1 << 24  # progressive JPEG is written in one piece, which 
 MAX_SIDE = 1600
 """Pixels; larger pictures are shown smaller."""
 
+PLOT_LIMIT = 300_000
+"""Bytes; larger plots are sheets of pictures, which would fill the page."""
+
 
 def data_uri(data: bytes, kind: str) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
@@ -41,13 +44,6 @@ def thumb(image: Image.Image) -> str:
     return data_uri(out.getvalue(), "webp")
 
 
-def png(image: Image.Image) -> str:
-    """The picture as it is, for crops, whose pixels are looked at one by one."""
-    out = io.BytesIO()
-    image.save(out, "PNG", optimize=True)
-    return data_uri(out.getvalue(), "png")
-
-
 def jpeg_under(image: Image.Image, limit: int) -> bytes:
     """JPEG of at most `limit` bytes: quality goes down first, then size."""
     smaller = within(image, MAX_SIDE)
@@ -60,9 +56,12 @@ def jpeg_under(image: Image.Image, limit: int) -> bytes:
         smaller = within(smaller, int(max(smaller.size) * 0.85))
 
 
-def plot(path: Path) -> str:
-    """A plot's data URI: SVG as it is, others as lossless WebP. OSError if it is no picture."""
+def plot(path: Path, quality: int) -> str:
+    """A plot's data URI: SVG and small files as they are, others as pictures. OSError if it is none."""
     if path.suffix == ".svg":
         return data_uri(path.read_bytes(), "svg+xml")
     with Image.open(path) as image:
-        return webp(image.convert("RGB"), 100)
+        pixels = image.convert("RGB")
+        kind = (image.format or "").lower()
+    small = kind in ("png", "jpeg", "webp") and path.stat().st_size <= PLOT_LIMIT
+    return data_uri(path.read_bytes(), kind) if small else webp(pixels, quality)

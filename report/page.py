@@ -52,37 +52,37 @@ def _environment() -> jinja2.Environment:
     return made
 
 
-def _plots(found: Collected) -> dict[str, list[tuple[str, str]]]:
-    """Of each result: its plots' file names and data URIs; what cannot be read is added to the problems."""
+def _plots(found: Collected, quality: int) -> tuple[dict[str, list[tuple[str, str]]], list[str]]:
+    """Of each result: its plots' names and data URIs; then what is wrong with the others."""
     out: dict[str, list[tuple[str, str]]] = {}
+    problems = []
     for one in found.results:
         for file in one.plots:
             try:
-                uri = encode.plot(inside(found.folders[one.name], file))
+                uri = encode.plot(inside(found.folders[one.name], file), quality)
             except (OSError, ValueError, Image.DecompressionBombError) as error:
-                found.problems.append(f"{one.name}: the plot {file} cannot be shown ({error})")
+                problems.append(f"{one.name}: the plot {file} cannot be shown ({error})")
                 continue
             out.setdefault(one.name, []).append((file, uri))
-    return out
+    return out, problems
 
 
 def _crop(comparison: Comparison, shot, place: tuple[int, int]) -> str:
     """A crop's data URI, every pixel as it was."""
     x, y = place
-    return encode.png(shot.image.crop((x, y, x + comparison.side, y + comparison.side)))
+    return encode.webp(shot.image.crop((x, y, x + comparison.side, y + comparison.side)), 100)
 
 
 def _by_scene(comparisons: list[Comparison]) -> dict[str, list[Comparison]]:
-    """In the order in which scenes first come."""
+    """In the order in which scenes first come; `cornell, direct light` belongs to `cornell`."""
     out: dict[str, list[Comparison]] = {}
     for one in comparisons:
-        out.setdefault(one.scene, []).append(one)
+        out.setdefault(one.scene.split(", ")[0], []).append(one)
     return out
 
 
 def build(found: Collected) -> Page:
     """Opens every picture, chooses crops, and fills the template; pictures lose quality if the page is too large."""
-    plots = _plots(found)
     comparisons: list[Comparison] = []
     for one in found.results:
         comparisons += compare(one, found.folders[one.name], found.problems)
@@ -91,11 +91,13 @@ def build(found: Collected) -> Page:
     crops = {c.key: [[_crop(c, shot, at) for at in c.places] for shot in c.shots] for c in rest}
     template = _environment().get_template("page.html.j2")
     for quality in QUALITIES:
+        plots, unseen = _plots(found, quality)
+        problems = found.problems + unseen
         pictures = {c.key: [encode.webp(shot.image, quality) for shot in c.shots] for c in comparisons}
         html = template.render(
             results=found.results,
             titles={one.name: one.title for one in found.results},
-            problems=found.problems,
+            problems=problems,
             **view.summary(found.results),
             thumbs={scene: encode.thumb(view.shown(group[0])) for scene, group in _by_scene(rest).items()},
             plots=plots,
@@ -109,7 +111,7 @@ def build(found: Collected) -> Page:
             max_side=encode.MAX_SIDE,
             tolerance=view.ENERGY_TOLERANCE,
         )
-        page = Page(html, quality, comparisons, found.problems)
+        page = Page(html, quality, comparisons, problems)
         if page.size <= SIZE_LIMIT:
             break
     return page

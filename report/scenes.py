@@ -39,6 +39,11 @@ class Comparison:
         return self.result, self.scene, self.size
 
     @property
+    def part(self) -> str:
+        """What of the scene is shown, where it is not the whole: what stands after its name and a comma."""
+        return self.scene.partition(", ")[2]
+
+    @property
     def reference(self) -> Shot | None:
         return next((s for s in self.shots if s.picture.reference), None)
 

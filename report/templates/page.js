@@ -90,12 +90,12 @@ function sortable(table) {
   });
 }
 
-// Scenes as tabs: one is seen at a time; the address may name it.
+// Scenes, and comparisons of a scene, as tabs: one is seen at a time; the address may name it.
 function tabs(list) {
   const links = [...list.querySelectorAll("a")];
   const panels = links.map((link) => document.getElementById(link.hash.slice(1)));
   list.setAttribute("role", "tablist");
-  list.setAttribute("aria-label", "Scenes");
+  list.setAttribute("aria-label", list.dataset.label);
 
   function show(index) {
     links.forEach((link, i) => {
@@ -140,4 +140,4 @@ document.documentElement.classList.add("js");
 document.querySelectorAll(".compare").forEach(slider);
 document.querySelectorAll("table.sortable").forEach(sortable);
 document.querySelectorAll("button.theme").forEach(theme);
-document.querySelectorAll(".jump").forEach(tabs);
+document.querySelectorAll(".tabs").forEach(tabs);

@@ -51,6 +51,14 @@ def pictures(where: Path, scene: str) -> list[Picture]:
     ]
 
 
+def of_direct_light(where: Path) -> list[Picture]:
+    """One part of a scene's light, without a reference."""
+    return [
+        Picture("wine_glass, direct light", label, store(where / f"direct-{label}.png", gradient(level)))
+        for label, level in (("PT", 0.3), ("PTPPM", 0.4))
+    ]
+
+
 def peers(cache: Path) -> Result:
     """The result `peers`, its pictures written."""
     where = folder(cache, "peers")
@@ -67,7 +75,7 @@ def peers(cache: Path) -> Result:
         reduced=True,
         tables=[Table("peers", "Error and time", columns, rows, "A note")],
         plots=[store(where / "plot.png", gradient(0.5))],
-        pictures=[*pictures(where, "cornell"), *pictures(where, "wine_glass")],
+        pictures=[*pictures(where, "cornell"), *pictures(where, "wine_glass"), *of_direct_light(where)],
         verdicts=[
             Verdict("Light is kept", "thesis 5.7", True, "0.999"),
             Verdict("It is the fastest", "thesis 6.4", False, "30.1 s against 12.3 s"),

@@ -51,7 +51,8 @@ class Opened:
         self.page.goto(html.as_uri())
 
     def stage(self):
-        return self.page.locator(".scene:not(.away) .stage").first
+        """Of the comparison that is seen."""
+        return self.page.locator(".stage:visible").first
 
     def cut(self) -> tuple[int, str]:
         """The border's place as told to screen readers, and the left picture's computed clip."""
@@ -167,13 +168,22 @@ def test_crops_stand_side_by_side_at_four_times_their_size(opened: Opened) -> No
 
 
 def test_scenes_are_tabs(opened: Opened) -> None:
-    tabs = opened.page.locator("[role=tab]")
+    tabs = opened.page.locator(".jump [role=tab]")
     assert opened.page.locator(".scene:visible h3").all_inner_texts() == ["Cornell"]
     tabs.nth(1).click()
     assert opened.page.locator(".scene:visible h3").all_inner_texts() == ["Wine glass"]
     opened.page.keyboard.press("ArrowRight")
     assert opened.page.locator(".scene:visible h3").all_inner_texts() == ["Cornell"]
     assert tabs.nth(0).get_attribute("aria-selected") == "true"
+
+
+def test_comparisons_of_one_scene_are_tabs_within_it(opened: Opened) -> None:
+    opened.page.locator(".jump [role=tab]").nth(1).click()
+    picks = opened.page.locator(".picks:visible [role=tab]")
+    assert picks.all_inner_texts() == ["peers", "peers: direct light"]
+    assert opened.page.locator(".compare:visible").count() == 1
+    picks.nth(1).click()
+    assert "direct light" in opened.page.locator(".compare:visible").inner_text()
 
 
 def test_tables_sort_by_number_both_ways_with_gaps_last(opened: Opened) -> None:
@@ -205,3 +215,4 @@ def test_the_button_turns_the_scheme(opened: Opened) -> None:
 def test_on_paper_every_scene_is_there(opened: Opened) -> None:
     opened.page.emulate_media(media="print")
     assert opened.page.locator(".scene:visible").count() == 2
+    assert opened.page.locator(".compare:visible").count() == 3

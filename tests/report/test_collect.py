@@ -92,7 +92,7 @@ def test_a_missing_picture_and_plot_are_told(cache: Path) -> None:
     (where / "wine_glass-ours.png").write_bytes(b"no picture")
     (where / "plot.png").unlink()
     made = page.build(collect.collect(cache))
-    assert [len(c.shots) for c in made.comparisons] == [2, 2]
+    assert [len(c.shots) for c in made.comparisons] == [2, 2, 2]
     assert len(made.problems) == 3
     for text in ("a picture of cornell cannot be shown: Cycles 3.4.1", "wine_glass", "plot.png"):
         assert any(text in problem for problem in made.problems)
@@ -115,5 +115,6 @@ def test_pictures_of_other_sizes_are_not_compared(cache: Path) -> None:
         ("cornell", (192, 144), 3),
         ("cornell", (60, 50), 1),
         ("wine_glass", (192, 144), 3),
+        ("wine_glass, direct light", (192, 144), 2),
     ]
     assert any("different sizes" in problem and "60 × 50: LuxCore" in problem for problem in made.problems)

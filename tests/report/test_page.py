@@ -124,7 +124,7 @@ def test_warnings_are_printed_too(cache: Path, tmp_path: Path) -> None:
     done = command(cache, tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert "warning: rays: no result.json" in done.stdout
-    assert "6 pictures" in done.stdout
+    assert "8 pictures" in done.stdout
 
 
 def test_a_full_disk_leaves_the_old_page(cache: Path, tmp_path: Path) -> None:
@@ -156,7 +156,11 @@ def test_the_gallery_has_figures_and_no_stale_pictures(cache: Path, tmp_path: Pa
     gallery.write(docs, page.build(collect.collect(cache)).comparisons)
     text = (docs / "gallery.md").read_text()
     names = sorted(path.name for path in (docs / "images" / "gallery").iterdir())
-    assert names == ["cornell-peers-192x144.jpg", "wine-glass-peers-192x144.jpg"]
+    assert names == [
+        "cornell-peers-192x144.jpg",
+        "wine-glass-direct-light-peers-192x144.jpg",
+        "wine-glass-peers-192x144.jpg",
+    ]
     assert all(f"images/gallery/{name}" in text for name in names)
     assert "| Cycles 3.4.1 | 0.457 | 0.913 | 30.5 s | 24 samples |" in text
     assert "| **Cardioid** | 0.0123 | 0.999 | 30.1 s | 16 samples |" in text
