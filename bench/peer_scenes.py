@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -12,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import exr, metrics
+from . import metrics
+from .references import Refused
 from .rivals import scenes, stored
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -44,6 +44,9 @@ class PeerScene:
         out["flip"] = metrics.flip(np.where(self.masks["all"][..., None], image, 0.0), self.shown())
         return out
 
+    def has_glass(self) -> bool:
+        return any(material.kind == scenes.GLASS for material in scenes.ALL[self.name]().materials.values())
+
     def shown(self) -> np.ndarray:
         return np.where(self.masks["all"][..., None], self.reference, 0.0)
 
@@ -74,11 +77,9 @@ def load_some(folder: Path, names: list[str]) -> list[PeerScene]:
 def load(folder: Path, name: str) -> PeerScene:
     try:
         found = stored.read(folder, name)
-    except ValueError as error:
+    except Refused as error:
         sys.exit(f"{error} (another folder: --peers)")
-    compared = ~found.emit
-    compared[-1] = False  # LuxCore's pictures have no last row
-    masks = {"all": compared, "caustic": compared & found.caustic}
+    masks = {"all": ~found.emit, "caustic": found.caustic & ~found.emit}
     error = {key: float(np.sqrt((found.error[mask].astype(np.float64) ** 2).mean())) for key, mask in masks.items()}
     return PeerScene(name, blend_of(name), found.pixels, masks, error)
 
@@ -101,23 +102,6 @@ def blend_of(name: str) -> Path:
         sys.exit(f"Blender could not build the scene {name}: {' | '.join(said)}")
     unfinished.replace(path)
     return path
-
-
-def load_picture(path: Path) -> np.ndarray:
-    """A picture of any peer. LuxCore's come as arrays one pixel row lower than everybody else's."""
-    if path.suffix != ".npy":
-        return exr.load(path)
-    pixels = np.load(path).astype(np.float32)
-    return np.concatenate([pixels[1:], pixels[-1:]])
-
-
-def recorded(folder: Path, scene: str, mark: float) -> dict[str, dict]:
-    """What the folder's own results say of a scene at a mark, by peer: another machine's CPU seconds."""
-    path = folder / "results.jsonl"
-    if not path.exists():
-        return {}
-    found = [json.loads(text) for text in path.read_text().splitlines() if text.strip()]
-    return {r["peer"]: r for r in found if r["scene"] == scene and r["mark"] == mark and "relmse_all" in r}
 
 
 def noise(pictures: list[np.ndarray], mask: np.ndarray) -> float | None:

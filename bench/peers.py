@@ -6,36 +6,75 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from . import peer_scenes, products, runs, store
+from . import exr, outcome, peer_scenes, peers_figures, products, result, runs, titles, verdicts
+from . import options as common
+from .progress import Progress
 
-COLUMNS = {"scene": "", "mark": "g", "product": "", "runs": "d", "cpu": ".1f", "samples": ".0f"}
-COLUMNS |= peer_scenes.COLUMNS | {"relmse_trim": ".5f", "flip": ".4f"}
-FIGURES = ("relmse", "relmse_caustic")
-OURS, GOAL = "cardioid", "mi_split"
+MARKS, FULL_MARKS = "12", "30,120"
+COLUMNS = {"scene": "", "mark": "g", "title": "", "runs": "d", "cpu": ".1f", "cpu_process": ".1f", "samples": ".0f"}
+COLUMNS |= {"relmse": ".5f", "relmse_trim": ".5f", "relmse_caustic": ".5f", "flip": ".4f"}
+COLUMNS |= {"energy": ".4f", "energy_caustic": ".4f", "reference": ".1%"}
+NOTE = (
+    "`CPU s`: user and system seconds of the whole process less those of a run with one sample and without preparation "
+    "for caustics, for every renderer; `whole process` has them all. `trimmed`: without the 0.1 % largest values. "
+    "`reference's own share`: its own squared error over the measured one. Median of the seeds."
+)
+PICTURES = (
+    "Pictures: one exposure a scene (the reference's 80 % quantile at half of white), a shoulder above 0.7 of white, "
+    "sRGB's curve; no denoising but where the name says it."
+)
+FIGURES = {"relmse": "whole picture", "relmse_caustic": "caustics"}
+REDUCED = (
+    *("cardioid", "cardioid_filtered", "cycles34_default", "cycles34", "cycles34_shadow"),
+    *("luxcore_default", "luxcore", "luxcore_bidir", "mitsuba_default", "mitsuba"),
+)
+WHEEL_MODES = ("default", "path", "guided", "denoised")
+"""Of the newest Blender at hand; --full takes all of all."""
+NOT_RIVALS = ("mitsuba_split", "mitsuba_particles")
+"""Only by name."""
 
 
 def add_arguments(commands) -> None:
     parser = commands.add_parser("peers", help="PTPPM against Cycles, LuxCore and Mitsuba at equal CPU seconds")
     peer_scenes.add_argument(parser)
-    parser.add_argument("--marks", default="30,120", help="CPU seconds (%(default)s)")
-    parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument(
-        "--products", default="cardioid,lux_pgi,cycles34,cycles5,mi_path", help="%(default)s; mi_split can be added"
-    )
+    parser.add_argument("--marks", default="", help=f"CPU seconds ({MARKS}, or {FULL_MARKS} with --full)")
+    parser.add_argument("--seeds", type=int, default=0, help="renders of each (1, or 3 with --full)")
+    names = ", ".join(products.available())
+    parser.add_argument("--products", default="", metavar="NAMES", help=f"of {names}")
 
 
-def usable(names: list[str]) -> dict[str, products.Product]:
-    """The products asked for that can run here; the others are left out with a line."""
-    found, out = products.available(), {}
+def wanted(options, found: dict[str, products.Product]) -> list[str]:
+    """The products asked for. Ends the program for a name that is none."""
+    if options.products:
+        names = options.products.split(",")
+        for name in names:
+            if name not in found:
+                sys.exit(f"no product named {name}; there are {', '.join(found)}")
+        return names
+    if options.full:
+        return [name for name in found if name not in NOT_RIVALS]
+    wheels = [name for name in found if name.startswith("cycles") and not name.startswith("cycles34")]
+    ready = [name for name in wheels if not found[name].problem()] or wheels
+    newest = ready[-1].split("_")[0] if ready else ""
+    chosen = [f"{newest}_{mode}".removesuffix("_path") for mode in WHEEL_MODES if newest]
+    return [*REDUCED, *chosen]
+
+
+def usable(names: list[str], found: dict[str, products.Product], missing: list[str]) -> dict[str, products.Product]:
+    """Those that can run here; why the others cannot goes into `missing`."""
+    out = {}
     for name in names:
-        if name not in found:
-            sys.exit(f"no product named {name}; there are {', '.join(found)}")
         problem = found[name].problem()
         if problem:
-            print(f"left out {name}: {problem}", flush=True)
+            leave_out(found[name].title, problem, missing)
         else:
             out[name] = found[name]
     return out
+
+
+def leave_out(title: str, why: str, missing: list[str]) -> None:
+    print(f"left out {title}: {why}", flush=True)
+    missing.append(f"{title}: {why}")
 
 
 def interleaved(names: list[str], seed: int) -> list[str]:
@@ -44,81 +83,97 @@ def interleaved(names: list[str], seed: int) -> list[str]:
     return names[turn:] + names[:turn]
 
 
-def recorded_rows(folder: Path, scene: str, mark: float) -> list[dict]:
-    """What the folder itself records, under names of their own: one seed, another machine."""
-    names = {"relmse": "relmse_all", "rmse": "rmse_all", "energy": "ratio_all", "relmse_trim": "relmse_trim_all"}
-    names |= {"relmse_caustic": "relmse_caustic", "rmse_caustic": "rmse_caustic", "energy_caustic": "ratio_caustic"}
-    names |= {"cpu": "cpu", "samples": "spp"}
+def measure_all(setup, chosen, scenes, marks, seeds: int, missing: list[str]) -> dict[tuple, list[dict]]:
+    """Figures by (scene, mark, product), one a seed. A product that fails is left out from there on."""
+    figures: dict[tuple, list[dict]] = {}
+    steps = sum(product.suits(scene) for product in chosen.values() for scene in scenes) * len(marks) * seeds
+    progress = Progress(steps, setup.records)
+    for mark in marks:
+        for seed in range(1, seeds + 1):
+            for scene in scenes:
+                for name in interleaved(list(chosen), seed):
+                    if name in chosen and chosen[name].suits(scene):
+                        progress.step(f"{scene.name}, {chosen[name].title}, {mark:g} CPU s, seed {seed}")
+                        one = measure_one(setup, chosen, name, scene, seed, mark, missing)
+                        if one:
+                            figures.setdefault((scene.name, mark, name), []).append(one)
+    return figures
+
+
+def measure_one(setup, chosen, name: str, scene, seed: int, mark: float, missing: list[str]) -> dict | None:
+    """A run's figures; None: out of time, or it failed and is no more among the chosen."""
+    try:
+        done = chosen[name].render(setup, scene, seed, mark)
+    except RuntimeError as error:
+        leave_out(chosen[name].title, " ".join(str(error).split()), missing)
+        del chosen[name]
+        return None
+    if done is None:
+        return None
+    found = done | scene.evaluate(exr.load(Path(done["path"])))
+    said = f"relMSE {found['relmse']:.5f}, caustic {found['relmse_caustic']:.5f}, energy {found['energy']:.3f}"
+    print(f"   {found['cpu']:.1f} CPU s, {said}", flush=True)
+    return found
+
+
+def rows_of(figures: dict[tuple, list[dict]], known: dict[str, products.Product]) -> list[dict]:
     rows = []
-    for peer, record in peer_scenes.recorded(folder, scene, mark).items():
-        row = {"scene": scene, "mark": mark, "product": f"{peer} (recorded)", "runs": 1}
-        rows.append(row | {key: record[of] for key, of in names.items()})
-    return rows
+    for (scene, mark, name), values in figures.items():
+        product = known[name]
+        row = {"scene": scene, "mark": mark, "product": name, "title": product.title, "filtered": product.filtered}
+        rows.append(row | {"ours": product.ours, "runs": len(values)} | peer_scenes.medians(values))
+    return sorted(rows, key=lambda row: (row["scene"], row["mark"], row["relmse"]))
 
 
-def judge(rows: list[dict], rivals: list[str]) -> list[str]:
-    """Ours against every rival, against the goal, and its energy, at each mark of each scene."""
+def judge(rows: list[dict]) -> list[result.Verdict]:
+    """Ours against the best of the others, unfiltered with unfiltered, filtered with filtered, at each mark of each
+    scene. A verdict holds where ours has the lower error."""
     out = []
-    for own in (row for row in rows if row["product"] == OURS):
-        here = [row for row in rows if (row["scene"], row["mark"]) == (own["scene"], own["mark"]) and row is not own]
-        name = f"{own['scene']}, {own['mark']:g} CPU s"
-        for figure, what in zip(FIGURES, ("whole", "caustic")):
-            group = [row for row in here if row["product"] in rivals]
-            if group:
-                best = min(group, key=lambda row: row[figure])
-                word = "met" if own[figure] < best[figure] else "missed"
-                ratio = own[figure] / best[figure]
-                out.append(f"{name}, {what}: {ratio:.2f} of the best rival's relMSE ({best['product']}): {word}")
-            for row in here:
-                if row["product"].startswith(GOAL):
-                    word = "met" if own[figure] <= row[figure] else "missed"
-                    ratio = own[figure] / row[figure]
-                    out.append(f"{name}, {what}: {ratio:.2f} of {row['product']}'s relMSE: goal {word}")
-        if abs(own["energy"] - 1) > 0.01:
-            out.append(f"{name}: our energy differs from the reference by {own['energy'] - 1:+.2%}")
+    for own in (row for row in rows if row["ours"]):
+        same = [row for row in rows if all(row[key] == own[key] for key in ("scene", "mark", "filtered"))]
+        rivals = [row for row in same if not row["ours"] and row["product"] not in NOT_RIVALS]
+        if not rivals:
+            continue
+        for figure, where in FIGURES.items():
+            best = min(rivals, key=lambda row: row[figure])
+            kind = " of all that filter" if own["filtered"] else ""
+            claim = f"{own['scene']}, {where}: {own['title']} has the lowest relMSE{kind} at {own['mark']:g} CPU s"
+            holds = own[figure] < best[figure]
+            said = [told(row, figure) for row in (own, best)]
+            out.append(result.Verdict(claim, "equal time", holds, f"{said[0]}; the best rival: {said[1]}"))
     return out
+
+
+def told(row: dict, figure: str) -> str:
+    energy = "energy_caustic" if figure.endswith("caustic") else "energy"
+    return f"{row['title']} {row[figure]:.5f} (energy {row[energy]:.3f}, {row['cpu']:.1f} CPU s)"
+
+
+def energies(rows: list[dict]) -> list[result.Verdict]:
+    own = [row | {"method": row["product"]} for row in rows if row["product"] == "cardioid"]
+    return [verdicts.energies(own, "cardioid")] if own else []
 
 
 def run(options, found) -> int:
     engine = runs.engine_of(found)
-    marks = sorted(float(mark) for mark in options.marks.split(","))
-    records = store.Store(options.cache / "peers.jsonl", options.budget)
-    setup = products.Setup(records, options.cache.resolve(), options.peers.resolve(), engine, options.threads)
-    scenes = peer_scenes.load_all(setup.peers, options.scene)
-    chosen = usable(options.products.split(","))
-    figures: dict[tuple[str, float, str], list[dict]] = {}
-    for mark in marks:
-        for seed in range(1, options.seeds + 1):
-            for scene in scenes:
-                for name in interleaved(list(chosen), seed):
-                    measure_one(setup, chosen, name, scene, seed, mark, figures)
-    rows = []
-    for (scene, mark, name), values in figures.items():
-        row = {"scene": scene, "mark": mark, "product": name, "runs": len(values)}
-        rows.append(row | peer_scenes.medians(values))
-    for scene, mark in dict.fromkeys((row["scene"], row["mark"]) for row in rows):
-        rows += recorded_rows(setup.peers, scene, mark)
-    rows.sort(key=lambda row: (row["scene"], row["mark"], "recorded" in row["product"], row["relmse"]))
-    store.publish(rows, COLUMNS, options.cache / "peers")
-    for note in judge(rows, [name for name, product in chosen.items() if product.rival]):
-        print(note)
-    return 0 if rows else 1
-
-
-def measure_one(setup, chosen, name, scene, seed, mark, figures) -> None:
-    """One run into `figures`; a product that fails is left out from here on."""
-    product = chosen.get(name)
-    if product is None:
-        return
-    try:
-        done = product.render(setup, scene, seed, mark)
-    except RuntimeError as error:
-        print(f"left out {name}: {error}", flush=True)
-        del chosen[name]
-        return
-    if done is None:
-        return
-    values = scene.evaluate(peer_scenes.load_picture(Path(done["path"])))
-    figures.setdefault((scene.name, mark, name), []).append({**values, "cpu": done["cpu"], "samples": done["samples"]})
-    said = f"{done['cpu']:.1f} CPU s, relMSE {values['relmse']:.5f}, caustic {values['relmse_caustic']:.5f}"
-    print(f"   {scene.name}, {name}, seed {seed}: {said}", flush=True)
+    words = options.marks or (FULL_MARKS if options.full else MARKS)
+    marks = sorted(float(mark) for mark in words.split(","))
+    seeds = options.seeds or (3 if options.full else 1)
+    records = common.records_of(options, "peers")
+    setup = products.Setup(records, options.cache.resolve(), engine, options.threads)
+    scenes = peer_scenes.load_all(options.peers, options.scene)
+    known, missing = products.available(), []
+    chosen = usable(wanted(options, known), known, missing)
+    titled = dict(chosen)
+    figures = measure_all(setup, chosen, scenes, marks, seeds, missing)
+    rows = rows_of(figures, known)
+    made = result.Result("peers", "Beside other renderers, at equal CPU seconds", "./scripts/bench peers --full", False)
+    made.reduced, made.missing = not options.full, missing
+    title = "Error, energy and CPU seconds on the thesis's three scenes"
+    made.tables = [result.Table("peers", title, titles.columns(COLUMNS), rows, NOTE)]
+    seen = [row | {"method": row["title"]} for row in rows]
+    made.verdicts = [*judge(rows), *energies(rows), *verdicts.references(seen)]
+    made.settings = {product.title: product.words for product in titled.values()} | {"Pictures": PICTURES}
+    made.versions = {known[key[2]].title: values[0]["version"] for key, values in figures.items()}
+    peers_figures.add(made, outcome.place(made, options).parent, scenes, figures, rows, known)
+    return outcome.finish(made, options, records)

@@ -15,6 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from .. import exr
+from ..references import Refused
+from ..result import write_atomically
 from .scenes import ALL
 
 FOLDER = Path(__file__).resolve().parent / "references"
@@ -43,18 +45,18 @@ def write(folder: Path, name: str, made: Stored) -> None:
     with OpenEXR.File(header, planes) as file:
         file.write(str(folder / f"{name}.exr"))
     record = {"scene": name, "digest": ALL[name]().digest()} | made.record
-    (folder / f"{name}.json").write_text(json.dumps(record, indent=1) + "\n")
+    write_atomically(folder / f"{name}.json", json.dumps(record, indent=1) + "\n")
 
 
 def read(folder: Path, name: str) -> Stored:
-    """A scene's reference. ValueError, one sentence: it is not there, or belongs to another scene."""
+    """A scene's reference. Refused, one sentence: it is not there, or belongs to another scene."""
     picture, told = folder / f"{name}.exr", folder / f"{name}.json"
     missing = [str(path) for path in (picture, told) if not path.exists()]
     if missing:
-        raise ValueError(f"no reference of the scene {name}: {', '.join(missing)} is not there")
+        raise Refused(f"no reference of the scene {name}: {', '.join(missing)} is not there")
     record = json.loads(told.read_text())
     if record.get("digest") != ALL[name]().digest():
-        raise ValueError(
+        raise Refused(
             f"{told} belongs to another scene {name} (digest {record.get('digest')}, the scene's is "
             f"{ALL[name]().digest()}); make it anew with bench/rivals/make_references.py"
         )
