@@ -34,11 +34,15 @@ def window_sums(values: np.ndarray, size: int) -> np.ndarray:
 
 
 def places(pictures: list[np.ndarray], reference: np.ndarray | None, size: int, count: int = 3) -> list[Place]:
-    """Up to `count` squares where the pictures differ most, the first most; their centres are two sides apart."""
+    """Up to `count` squares where the pictures differ most, the first most.
+
+    They are two sides apart, in large pictures a quarter of the picture, so that they show different things.
+    """
     sums = window_sums(difference(pictures, reference), size)
+    apart = max(2 * size, min(pictures[0].shape[:2]) // 4)
     found: list[Place] = []
     while len(found) < count and sums.max() > 1e-6 * size * size:
         y, x = np.unravel_index(int(np.argmax(sums)), sums.shape)
         found.append((int(x), int(y)))
-        sums[max(y - 2 * size + 1, 0) : y + 2 * size, max(x - 2 * size + 1, 0) : x + 2 * size] = 0.0
+        sums[max(y - apart + 1, 0) : y + apart, max(x - apart + 1, 0) : x + apart] = 0.0
     return found

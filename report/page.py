@@ -81,29 +81,23 @@ def _by_scene(comparisons: list[Comparison]) -> dict[str, list[Comparison]]:
     return out
 
 
-def build(found: Collected) -> Page:
-    """Opens every picture, chooses crops, and fills the template; pictures lose quality if the page is too large."""
-    comparisons: list[Comparison] = []
-    for one in found.results:
-        comparisons += compare(one, found.folders[one.name], found.problems)
-    demo = [c for c in comparisons if c.result == DEMO]
-    rest = [c for c in comparisons if c.result != DEMO]
-    crops = {c.key: [[_crop(c, shot, at) for at in c.places] for shot in c.shots] for c in rest}
-    template = _environment().get_template("page.html.j2")
-    for quality in QUALITIES:
-        plots, unseen = _plots(found, quality)
-        problems = found.problems + unseen
-        pictures = {c.key: [encode.webp(shot.image, quality) for shot in c.shots] for c in comparisons}
-        html = template.render(
+def _render(found: Collected, comparisons: list[Comparison], crops: dict, quality: int) -> Page:
+    """The page with pictures of this quality."""
+    plots, unseen = _plots(found, quality)
+    scenes = _by_scene([c for c in comparisons if c.result != DEMO])
+    html = (
+        _environment()
+        .get_template("page.html.j2")
+        .render(
             results=found.results,
             titles={one.name: one.title for one in found.results},
-            problems=problems,
+            problems=found.problems + unseen,
             **view.summary(found.results),
-            thumbs={scene: encode.thumb(view.shown(group[0])) for scene, group in _by_scene(rest).items()},
             plots=plots,
-            demo=demo,
-            scenes=_by_scene(rest),
-            pictures=pictures,
+            demo=[c for c in comparisons if c.result == DEMO],
+            scenes=scenes,
+            thumbs={scene: encode.thumb(view.shown(group[0])) for scene, group in scenes.items()},
+            pictures={c.key: [encode.webp(shot.image, quality) for shot in c.shots] for c in comparisons},
             crops=crops,
             counts=view.verdict_counts(found.results),
             chords=view.curve(),
@@ -111,7 +105,18 @@ def build(found: Collected) -> Page:
             max_side=encode.MAX_SIDE,
             tolerance=view.ENERGY_TOLERANCE,
         )
-        page = Page(html, quality, comparisons, problems)
+    )
+    return Page(html, quality, comparisons, found.problems + unseen)
+
+
+def build(found: Collected) -> Page:
+    """Opens every picture, chooses crops, and fills the template; pictures lose quality if the page is too large."""
+    comparisons: list[Comparison] = []
+    for one in found.results:
+        comparisons += compare(one, found.folders[one.name], found.problems)
+    crops = {c.key: [[_crop(c, shot, at) for at in c.places] for shot in c.shots] for c in comparisons}
+    for quality in QUALITIES:
+        page = _render(found, comparisons, crops, quality)
         if page.size <= SIZE_LIMIT:
             break
     return page
