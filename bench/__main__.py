@@ -14,7 +14,7 @@ import signal
 import sys
 import time
 
-from . import engines, options, scene_list, store
+from . import engines, filter_references, options, scene_list, store
 
 NAMES = (
     *("tables", "convergence", "filter", "classes", "peers", "rays", "nodes", "memory"),
@@ -25,6 +25,8 @@ MODULES = {
     for name in NAMES
     if importlib.util.find_spec(f".{name}", __package__)
 }
+MAKERS = {"references": filter_references}
+"""Subcommands that measure nothing: `all` leaves them out."""
 STOPPED = 130
 
 
@@ -48,7 +50,7 @@ def parser() -> argparse.ArgumentParser:
     )
     options.add_common(made)
     commands = Commands(made)
-    for module in MODULES.values():
+    for module in (*MODULES.values(), *MAKERS.values()):
         module.add_arguments(commands)
     commands.add_parser("all", help="every subcommand; --budget is shared by them")
     commands.add_parser("list", help="the engines and scenes, and what is missing for each")
@@ -96,7 +98,7 @@ def dispatch(chosen) -> int:
     if chosen.command == "all":
         return run_all(chosen, found)
     options.settle(chosen)
-    return MODULES[chosen.command].run(chosen, found)
+    return (MODULES | MAKERS)[chosen.command].run(chosen, found)
 
 
 def interrupted(*_) -> None:

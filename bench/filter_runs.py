@@ -32,7 +32,7 @@ def run_filter(engine: CommandLine, film: Path, out: Path, settings: tuple[str, 
             command += ["--set", setting]
         cost = measure.run(command)
         if cost.code:
-            raise RuntimeError("the film was not filtered:\n" + "\n".join(text for _, text in cost.lines[-15:]))
+            raise store.failure("the film was not filtered", cost.lines, out)
         return json.loads(stats.read_text())
 
 
@@ -61,7 +61,7 @@ class Film:
         found = self.records.get(*self.key)
         if found and self.path.exists() and self.picture("-raw").exists():
             return found
-        if self.records.out_of_time():
+        if self.records.out_of_time(self.key):
             return None
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory() as folder:
@@ -69,7 +69,8 @@ class Film:
             command, env = self.engine.command(job, Path(folder))
             cost = measure.run([*command, "--set", "record_clusters=true", "--film", str(self.path)], env=env)
             if cost.code:
-                raise RuntimeError("no film was rendered:\n" + "\n".join(text for _, text in cost.lines[-15:]))
+                self.forget()
+                raise store.failure("no film was rendered", cost.lines, self.path)
             stats = json.loads((Path(folder) / "stats.json").read_text())
         return self.records.add(self.key, {"cpu": stats["cpu_seconds"], "process_cpu": cost.cpu, "stats": stats})
 
@@ -87,7 +88,7 @@ class Film:
         found = self.records.get(*key)
         if found and path.exists():
             return found, path
-        if self.rendered() is None:
+        if self.rendered() is None or self.records.out_of_time(key):
             return None
         return self.records.add(key, run_filter(self.engine, self.path, path, settings, self.job.threads)), path
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import exr, measure, quality, reference, regions
+from . import exr, measure, quality, reference, regions, store
 from .engines import Job
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -76,9 +76,11 @@ def surface(cache: Path, scene: FilterScene, width: int) -> regions.Surface:
         path.parent.mkdir(parents=True, exist_ok=True)
         script = str(Path(__file__).with_name("render_surface.py"))
         command = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "-P", script, "--"]
-        cost = measure.run([*command, str(scene.blend), str(path), str(width)])
-        if not path.exists():
-            raise RuntimeError("no surface was rendered:\n" + "\n".join(text for _, text in cost.lines[-15:]))
+        part = path.with_name(f"part-{path.name}")
+        cost = measure.run([*command, str(scene.blend), str(part), str(width)])
+        if cost.code or not part.exists():
+            raise store.failure("no surface was rendered", cost.lines, path)
+        part.replace(path)
     planes = exr.channels(path)
 
     def layer(name: str, axes: str) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import charts, filter_methods, filter_runs, filter_scenes, kept, outcome, result, store, thesis
+from . import charts, filter_methods, filter_runs, filter_scenes, filter_tables, kept, outcome, result, store, thesis
 from . import options as common
 from .engines import CommandLine, Engine, Job
 from .grids import build_grid
@@ -144,20 +144,27 @@ def measure(options, records: store.Store, pair: list[Engine], engine: CommandLi
     rows = [row for one in pair if (row := slopes(records, options, one, grids, progress))]
     for row in rows if len(rows) == len(pair) else []:
         row["energy"] = row["mean"] / rows[1]["mean"]
-    return rows, parts(records, options, engine, grids, progress), table_6_2(records, options, engine, progress)
+    large = []
+    if options.full:
+        progress.step("a film at 1920 × 1080")
+        large = filter_tables.large_film(records, options, engine, filter_scenes.SCENES[THESIS_SCENES[0]])
+    return rows, parts(records, options, engine, grids, progress), table_6_2(records, options, engine, progress), large
 
 
 def run(options, found) -> int:
     pair = common.usable(found, options.ours, options.rival)
     (engine,) = common.usable(found, "cardioid-cli")
     records = common.records_of(options, "memory")
-    rows, counted, sizes = measure(options, records, pair, engine)
+    rows, counted, sizes, large = measure(options, records, pair, engine)
     out = result.Result("memory", "Memory", "./scripts/bench memory --full", not options.full)
     out.tables = [
         result.Table("engines", "Bytes a triangle and a pixel", ENGINES, rows, NOTE),
         result.Table("parts", "What Cardioid itself counts", PARTS, counted),
         result.Table("clusters", f"Clusters at {THESIS_SIDE}², {SAMPLES} samples (thesis Table 6.2)", SIZES, sizes),
     ]
+    if large:
+        columns = {"scene": ["scene", ""], "megabytes_1080p": ["MB, whole film", ".0f"]}
+        out.tables.append(result.Table("large", "A film with clusters at 1920 × 1080, 16 samples", columns, large))
     out.settings = {one.title: "path tracing, one sample; the tree, the mesh and the picture in memory" for one in pair}
     out.verdicts = verdicts(rows, sizes, pair[0].key)
     if sizes and charts.memory(rows, sizes, outcome.place(out, options)):

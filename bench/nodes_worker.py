@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs inside Blender for `python -m bench nodes`: CPU seconds of shading real materials, by both engines in turn.
+"""Runs inside Blender for `./scripts/bench nodes`: CPU seconds of shading a material, by both engines in turn.
 
 A plane of one material fills the frame under a constant sky; no light but the sky's, no bounce. The seconds of a sample
 are the slope between two renders of different length, less the slope of a plain diffuse plane: export, compiling,
-textures and tracing drop out. Also: 1000 different materials, and what the engine says it took to compile them.
+textures and tracing drop out. Or: 1000 different materials, and what the engine says it took to compile them.
 """
 
 from __future__ import annotations
@@ -11,10 +11,12 @@ from __future__ import annotations
 import json
 import os
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 TASK = json.loads(Path(sys.argv[sys.argv.index("--") + 1]).read_text())
 sys.path.insert(0, TASK["addon"])
@@ -88,15 +90,29 @@ def diffuse(_scene) -> bpy.types.Material:
     return material
 
 
-def measure(make) -> dict:
-    """Both engines in turn over the same scene; make(scene) gives the material."""
+def mean_of_picture(scene: bpy.types.Scene) -> float:
+    """Of the last render, linear: through a file, since a background Blender does not hand out its pixels."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / "picture.exr")
+        bpy.data.images["Render Result"].save_render(path, scene=scene)
+        image = bpy.data.images.load(path)
+        pixels = np.empty(len(image.pixels), np.float32)
+        image.pixels.foreach_get(pixels)
+        bpy.data.images.remove(image)
+    return float(pixels.reshape(-1, 4)[:, :3].mean())
+
+
+def measure(make) -> tuple[dict[str, list[float]], dict[str, float]]:
+    """Both engines in turn over the same scene; make(scene) gives the material. Seconds of a point; mean pixels."""
     scene = start()
     plane(scene, make(scene))
-    found: dict[str, list[float]] = {"CARDIOID": [], "CYCLES": []}
+    seconds: dict[str, list[float]] = {"CARDIOID": [], "CYCLES": []}
+    means = {}
     for turn in range(TASK["runs"]):
-        for engine in sorted(found, reverse=turn % 2 == 1):
-            found[engine].append(slope(scene, engine))
-    return found
+        for engine in sorted(seconds, reverse=turn % 2 == 1):
+            seconds[engine].append(slope(scene, engine))
+            means[engine] = mean_of_picture(scene)
+    return seconds, means
 
 
 def from_file(path: str, name: str):
@@ -108,9 +124,9 @@ def from_file(path: str, name: str):
     return make
 
 
-def procedural(i: int) -> bpy.types.Material:
-    """What files use most (node-frequency): coordinates, mapping, noise, ramp, mix, bump, Principled."""
-    material = bpy.data.materials.new(f"procedural {i}")
+def empty(name: str):
+    """A material without nodes, and what adds one: `node(kind, input=value or socket)`."""
+    material = bpy.data.materials.new(name)
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
@@ -125,6 +141,12 @@ def procedural(i: int) -> bpy.types.Material:
                 target.default_value = value
         return made
 
+    return material, node
+
+
+def procedural(i: int) -> bpy.types.Material:
+    """What files use most (node-frequency): coordinates, mapping, noise, ramp, mix, bump, Principled."""
+    material, node = empty(f"procedural {i}")
     at = node("Mapping", Vector=node("TexCoord").outputs["Object"], Scale=(1 + i * 1e-3, 2, 1)).outputs[0]
     noise = node("TexNoise", Vector=at, Scale=4.0 + i * 0.01, Detail=3.0)
     ramp = node("ValToRGB", Fac=noise.outputs["Fac"])
@@ -133,6 +155,54 @@ def procedural(i: int) -> bpy.types.Material:
     shader = node("BsdfPrincipled", Roughness=0.4, Normal=bump.outputs[0], **{"Base Color": ramp.outputs[0]})
     node("OutputMaterial", Surface=shader.outputs[0])
     return material
+
+
+def mixed(_scene) -> bpy.types.Material:
+    """Two shaders mixed by cells."""
+    material, node = empty("mixed")
+    at = node("TexCoord").outputs["Object"]
+    cells = node("TexVoronoi", Vector=at, Scale=12.0)
+    tint = node("HueSaturation", Hue=0.4, Color=cells.outputs["Color"])
+    rough = node("BsdfDiffuse", Color=tint.outputs[0], Roughness=0.5)
+    smooth = node("BsdfGlossy", Color=(0.9, 0.8, 0.6, 1), Roughness=0.3)
+    shader = node("MixShader", Fac=cells.outputs["Distance"])
+    shader.id_data.links.new(rough.outputs[0], shader.inputs[1])
+    shader.id_data.links.new(smooth.outputs[0], shader.inputs[2])
+    node("OutputMaterial", Surface=shader.outputs[0])
+    return material
+
+
+def tiles(_scene) -> bpy.types.Material:
+    """Waves drive the colours and the roughness of bricks."""
+    material, node = empty("tiles")
+    at = node("TexCoord").outputs["Object"]
+    wave = node("TexWave", Vector=at, Scale=3.0, Distortion=4.0, Detail=2.0)
+    ramp = node("ValToRGB", Fac=wave.outputs["Fac"])
+    brick = node("TexBrick", Vector=at, Color1=ramp.outputs["Color"], Scale=6.0)
+    rough = node("MapRange", Value=brick.outputs["Fac"])
+    bump = node("Bump", Height=brick.outputs["Fac"], Strength=0.4)
+    shader = node("BsdfGlossy", Color=brick.outputs["Color"], Roughness=rough.outputs[0], Normal=bump.outputs[0])
+    node("OutputMaterial", Surface=shader.outputs[0])
+    return material
+
+
+def frosted(_scene) -> bpy.types.Material:
+    """Glass whose roughness and normal come from noise."""
+    material, node = empty("frosted")
+    noise = node("TexNoise", Vector=node("TexCoord").outputs["Object"], Scale=9.0, Detail=4.0)
+    bump = node("Bump", Height=noise.outputs["Fac"], Strength=0.2)
+    shader = node("BsdfGlass", Roughness=noise.outputs["Fac"], IOR=1.5, Normal=bump.outputs[0])
+    node("OutputMaterial", Surface=shader.outputs[0])
+    return material
+
+
+OWN = {
+    "plain diffuse": diffuse,
+    "noise, ramp, bump, Principled": lambda _scene: procedural(0),
+    "voronoi, mixed shaders": mixed,
+    "wave and bricks, glossy": tiles,
+    "clear glass, noise": frosted,
+}
 
 
 def compile_many(count: int) -> dict:
@@ -153,16 +223,13 @@ def compile_many(count: int) -> dict:
 
 def main() -> None:
     addon_utils.enable("cycles", persistent=True)
-
-    def tell(**result) -> None:
-        print("NODES " + json.dumps(result), flush=True)
-
-    if TASK["compile"]:
-        tell(compiled=compile_many(TASK["compile"]))
-    tell(material="plain diffuse", seconds=measure(diffuse))
-    tell(material="noise, ramp, bump, Principled", seconds=measure(lambda _scene: procedural(0)))
-    for path, name in TASK["materials"]:
-        tell(material=name, seconds=measure(from_file(path, name)))
+    if "compile" in TASK:
+        found = {"compiled": compile_many(TASK["compile"])}
+    else:
+        path, name = TASK["material"]
+        seconds, means = measure(from_file(path, name) if path else OWN[name])
+        found = {"material": name, "seconds": seconds, "means": means}
+    print("NODES " + json.dumps(found), flush=True)
     sys.stdout.flush()
     os._exit(0)
 

@@ -21,13 +21,14 @@ class Reference:
     """Expected relmse and mse of the mean, from the scatter of its parts."""
     parts: int
     paths: list[Path] = field(default_factory=list)
+    records: list[dict] = field(default_factory=list)
 
 
 def make(
     records: store.Store, cache: Path, engine: Engine, name: str, job: Job, parts: int, first_seed: int = FIRST_SEED
 ) -> Reference | None:
     """The reference of a scene from `parts` pictures under a job's settings; None if time ran out before two."""
-    pictures, paths = [], []
+    pictures, paths, kept = [], [], []
     stamp = f"{Path(job.blend).stat().st_mtime_ns:x}"
     for part in range(parts):
         key = ("reference", engine.key, name, stamp, job.width, job.samples, job.bounces, job.caustics, part)
@@ -36,7 +37,7 @@ def make(
             key += (first_seed,)
         path = cache / "references" / ("-".join(str(k) for k in key[1:]) + ".exr")
         if not (records.get(*key) and path.exists()):
-            if records.out_of_time():
+            if records.out_of_time(key):
                 break
             path.parent.mkdir(parents=True, exist_ok=True)
             done = store.render(engine, replace(job, out=str(path), seed=first_seed + part))
@@ -44,7 +45,8 @@ def make(
             print(f"   {name}: reference {part + 1}/{parts}, {done['cpu']:.1f} CPU s", flush=True)
         pictures.append(exr.load(path))
         paths.append(path)
+        kept.append(records.get(*key))
     if len(pictures) < 2:
         return None
     stack = np.array(pictures, np.float64)
-    return Reference(stack.mean(0), metrics.reference_error(stack), len(pictures), paths)
+    return Reference(stack.mean(0), metrics.reference_error(stack), len(pictures), paths, kept)

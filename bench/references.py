@@ -135,11 +135,13 @@ def load(name: str, scene_digest: str, *, width: int = 0, folder: Path = FOLDER)
         if about.format != FORMAT:
             raise ValueError("another format")
     except FileNotFoundError as error:
-        raise Refused(f"there is no reference {path}") from error
+        raise Refused(f"there is no reference {path.parent.name}/{path.name}") from error
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise Refused(f"the reference {path} cannot be read: {error}") from error
     if about.digest != scene_digest:
-        raise Refused(f"the reference {path} is of another scene (digest {about.digest}, not {scene_digest})")
+        raise Refused(
+            f"the reference {path.parent.name}/{path.name} is of another scene (digest {about.digest}, not {scene_digest})"
+        )
     if width and about.size[0] != width:
         raise Refused(f"the reference {path} is {about.size[0]} pixels wide, not {width}")
     try:

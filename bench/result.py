@@ -129,6 +129,11 @@ def csv_text(table: Table) -> str:
     return out.getvalue()
 
 
+def plain(value):
+    """A number or truth value of numpy's as Python's own, for JSON."""
+    return value.item()
+
+
 def folder(cache: Path, name: str) -> Path:
     """Where a subcommand's result, plots and pictures are."""
     return cache / "results" / name
@@ -145,7 +150,9 @@ def save(result: Result, cache: Path) -> Path:
         raise FileNotFoundError(f"{result.name}: the result names files that are not there: {', '.join(missing)}")
     for table in result.tables:
         write_atomically(where / f"{table.name}.csv", csv_text(table))
-    write_atomically(where / "result.json", json.dumps({"format": FORMAT, **asdict(result)}, indent=1) + "\n")
+    write_atomically(
+        where / "result.json", json.dumps({"format": FORMAT, **asdict(result)}, indent=1, default=plain) + "\n"
+    )
     return where
 
 

@@ -7,7 +7,7 @@ import struct
 import numpy as np
 import pytest
 
-from bench import film_reader, filter_quality, filter_tables, quality, regions
+from bench import film_reader, quality, regions
 
 SIZE = (96, 96)
 
@@ -130,37 +130,6 @@ def test_small_regions_are_not_judged():
     got = quality.evaluate(rgb(checker()), referee(rgb(checker()), texture=few))
     assert "texture_kept" not in got
     assert "light_edges" in got
-
-
-def rows(**of_ours) -> list[dict]:
-    base = {"scene": "room", "samples": 16, "relmse": 0.01, "of_raw": 1.0, "texture_kept": 0.99, "of_equal_time": 0.2}
-    found = [{"method": name} | base for name in filter_quality.filter_methods.FILTERS]
-    found += [{"method": "equal time"} | base | {"relmse": 0.05}]
-    for row in found:
-        if row["method"].startswith("cross"):
-            row["relmse"] = 0.02
-        if row["method"] == "clusters":
-            row |= of_ours
-    return found
-
-
-def test_bars_are_judged():
-    assert all(note.endswith(": met") for note in filter_quality.judge(rows()))
-    missed = filter_quality.judge(rows(of_equal_time=0.26, relmse=0.021, texture_kept=0.97))
-    assert [note.endswith("MISSED") for note in missed] == [True, True, False, True]
-    lost = rows()
-    for row in lost:
-        if row["method"] == "clusters, no rejection":
-            row["of_raw"] = 1.02
-    assert sum("MISSED" in note for note in filter_quality.judge(lost)) == 1
-
-
-def test_costs_are_judged_and_the_thesiss_rows_are_not():
-    times = [{"scene": "a", "who": "ours", "rejection": 0.1, "filter": 3.0}]
-    times += [{"scene": "a", "who": "thesis", "rejection": 0.5, "filter": 8.0}]
-    found = filter_tables.notes(times, [], [{"scene": "a", "overhead": 0.07}], [{"scene": "a", "megabytes_1080p": 700}])
-    assert len(found) == 4
-    assert ["MISSED" in note for note in found] == [False, True, True, False]
 
 
 def film_bytes(width: int = 10, height: int = 9) -> bytes:
