@@ -54,8 +54,8 @@ def draw_room(axes: plt.Axes) -> None:
     axes.add_patch(Circle(LAMP_AT, 0.11, facecolor=LAMP, edgecolor=INK, lw=0.8, zorder=5))
     axes.plot([EYE[0] - 0.32, EYE[0], EYE[0] - 0.32], [EYE[1] + 0.2, EYE[1], EYE[1] - 0.2], color=INK, lw=2)
     axes.text(EYE[0] - 0.28, EYE[1] + 0.27, "E", ha="center", fontsize=9)
-    axes.text(LAMP_AT[0] + 0.2, LAMP_AT[1] - 0.02, "L", va="center", fontsize=9)
-    axes.set(xlim=(-2.05, 2.15), ylim=(-1.12, 2.95), aspect="equal")
+    axes.text(LAMP_AT[0] - 0.16, LAMP_AT[1] + 0.06, "L", va="center", ha="right", fontsize=9)
+    axes.set(xlim=(-2.05, 2.15), ylim=(-0.85, 3.0), aspect="equal")
     axes.axis("off")
 
 
@@ -73,27 +73,42 @@ def draw_path(axes: plt.Axes, points: list[np.ndarray], color: str) -> None:
             )
 
 
+def draw_panel(axes: plt.Axes, name: str, points: list[np.ndarray], letters: list[tuple[np.ndarray, str]]) -> None:
+    color, (string, words) = CLASSES[name], TEXTS[name]
+    draw_room(axes)
+    draw_path(axes, points, color)
+    for at, letter in letters:
+        axes.plot(*at, "o", ms=5, color="white", mec=color, mew=1.6, zorder=6)
+        side = 1 if at[0] < 1.9 else -1
+        place = {"ha": "left" if side > 0 else "right", "zorder": 7, "weight": "bold"}
+        axes.text(at[0] + 0.12 * side, at[1] + 0.13, letter, color=INK, fontsize=9.5, **place)
+    axes.text(-2.0, 2.72, name, color=color, fontsize=15, weight="bold")
+    axes.text(-1.3, 2.74, string, color=INK, fontsize=9.5, family="DejaVu Sans Mono")
+    axes.text(0.05, -0.3, words, ha="center", va="top", fontsize=9.5, color=INK)
+
+
+def draw_legend(axes: plt.Axes) -> None:
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    axes.axis("off")
+    lines = (
+        ("L", "lamp, shining surface, sun, sky"),
+        ("S", "mirror-like or clear lobe,\nroughness up to the limit"),
+        ("D", "every other lobe"),
+        ("E", "eye"),
+        ("*", "any number"),
+        ("⁺", "one or more"),
+        ("|", "either"),
+    )
+    y = 0.88
+    for sign, text in lines:
+        axes.text(0.1, y, sign, fontsize=11, weight="bold", family="DejaVu Sans Mono", va="top")
+        axes.text(0.22, y, text, fontsize=9.5, color=FAINT, va="top")
+        y -= 0.165 if "\n" in text else 0.105
+
+
 def draw() -> None:
-    figure, rows = plt.subplots(1, 5, figsize=(13.6, 3.1))
-    for axes, (name, (points, letters)) in zip(rows, paths().items()):
-        color, (string, words) = CLASSES[name], TEXTS[name]
-        draw_room(axes)
-        draw_path(axes, points, color)
-        for at, letter in letters:
-            axes.plot(*at, "o", ms=5, color="white", mec=color, mew=1.6, zorder=6)
-            side = 1 if at[0] < 1.9 else -1
-            axes.text(
-                at[0] + 0.12 * side,
-                at[1] + 0.13,
-                letter,
-                color=INK,
-                fontsize=9.5,
-                weight="bold",
-                zorder=7,
-                ha="left" if side > 0 else "right",
-            )
-        axes.text(-2.0, 2.72, name, color=color, fontsize=15, weight="bold")
-        axes.text(-1.3, 2.74, string, color=INK, fontsize=9.5, family="DejaVu Sans Mono")
-        axes.text(0.05, -0.35, words, ha="center", va="top", fontsize=9.5, color=INK)
-    figure.text(0.995, 0.01, "S: mirror-like or clear   D: all else", ha="right", fontsize=8.5, color=FAINT)
+    figure, rows = plt.subplots(2, 3, figsize=(10, 6))
+    for axes, (name, (points, letters)) in zip(rows.flat, paths().items()):
+        draw_panel(axes, name, points, letters)
+    draw_legend(rows[1, 2])
     save(figure, "path-classes")
