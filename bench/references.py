@@ -140,7 +140,7 @@ def load(name: str, scene_digest: str, *, width: int = 0, folder: Path = FOLDER)
         raise Refused(f"the reference {path} cannot be read: {error}") from error
     if about.digest != scene_digest:
         raise Refused(
-            f"the reference {path.parent.name}/{path.name} is of another scene (digest {about.digest}, not {scene_digest})"
+            f"the reference {path.parent.name}/{path.name} is of another scene ({about.digest}, not {scene_digest})"
         )
     if width and about.size[0] != width:
         raise Refused(f"the reference {path} is {about.size[0]} pixels wide, not {width}")

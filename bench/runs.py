@@ -44,7 +44,7 @@ def measured(records: store.Store, cache: Path, engine: Engine, job: Job, kind: 
     found = records.get(*key)
     if found and path.exists():
         return found | {"path": str(path)}
-    if records.out_of_time():
+    if records.out_of_time(key):
         return None
     path.parent.mkdir(parents=True, exist_ok=True)
     done = store.render(engine, replace(job, out=str(path)))
