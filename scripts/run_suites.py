@@ -187,6 +187,11 @@ def bad_input() -> Counts:
     return pytest_suite("bad_input", [PYTHON, "-m", "pytest"], ["tests/bad_input"], 600)
 
 
+def scene_files() -> Counts:
+    """Each file of scenes/: packed, told, and rendered small by Debian's Blender."""
+    return pytest_suite("scenes", [PYTHON, "-m", "pytest"], ["tests/scenes"], 300)
+
+
 def render_comparison() -> Counts:
     """tests/render/run.py against Cycles and the stored pictures; it prints the counts line itself."""
     script = ROOT / "tests" / "render" / "run.py"
@@ -231,6 +236,7 @@ PARTS: dict[str, list[tuple[str, Callable[[], Counts]]]] = {
         ("bpy 4.5", bpy_45),
         ("bpy 5.0", bpy_50),
         ("bad input", bad_input),
+        ("files of scenes/", scene_files),
     ],
     "render": [("render comparison", render_comparison)],
 }
