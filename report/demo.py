@@ -16,6 +16,8 @@ from .collect import DEMO, read
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = 256
+MORE = {"bust_in_water": ["--cardioid-indirect-caustics", "photons"]}
+"""What a scene needs beside the defaults: in the water most light is caustics of scattered light."""
 ADDON = ROOT / "addon" / "cardioid"
 
 
@@ -25,7 +27,7 @@ def command(scene: str, samples: int, percent: int) -> list[str]:
     words = ["blender", "-b", f"scenes/{scene}.blend", "--addons", "cardioid", "-E", "CARDIOID"]
     words += [] if percent == 100 else ["--python-expr", smaller]
     words += ["-o", f"//../out/{scene}_", "-F", "PNG", "-x", "1", "-f", "1"]
-    return [*words, "--", "--cardioid-samples", str(samples), "--cardioid-filter", "on"]
+    return [*words, "--", "--cardioid-samples", str(samples), "--cardioid-filter", "on", *MORE.get(scene, [])]
 
 
 def render(scene: str, words: list[str], target: Path) -> float:
