@@ -6,24 +6,45 @@ from __future__ import annotations
 
 import argparse
 import copy
-import importlib
-import importlib.util
 import os
 import platform
 import signal
 import sys
 import time
 
-from . import engines, filter_references, options, scene_list, store
-
-NAMES = (
-    *("tables", "convergence", "filter", "classes", "peers", "rays", "nodes", "memory"),
-    *("efficiency", "start", "photons", "choices"),
+from . import (
+    choices,
+    classes,
+    convergence,
+    efficiency,
+    engines,
+    filter,
+    filter_references,
+    memory,
+    nodes,
+    options,
+    peers,
+    photons,
+    rays,
+    scene_list,
+    start,
+    store,
+    tables,
 )
+
 MODULES = {
-    name: importlib.import_module(f".{name}", __package__)
-    for name in NAMES
-    if importlib.util.find_spec(f".{name}", __package__)
+    "tables": tables,
+    "convergence": convergence,
+    "filter": filter,
+    "classes": classes,
+    "peers": peers,
+    "rays": rays,
+    "nodes": nodes,
+    "memory": memory,
+    "efficiency": efficiency,
+    "start": start,
+    "photons": photons,
+    "choices": choices,
 }
 MAKERS = {"references": filter_references}
 """Subcommands that measure nothing: `all` leaves them out."""
