@@ -18,14 +18,17 @@ PIXEL = CLASSES["D2"]
 DISCS = ((-0.75, 0.06), (0.62, 0.15))  # where two pixels look, and their radius there
 
 
-def draw_room(axes: plt.Axes, title: str, text: str) -> None:
+def draw_room(axes: plt.Axes, title: str) -> None:
     axes.add_patch(Rectangle((-2, -0.12), 4, 0.12, color=FLOOR))
     axes.add_patch(Circle(ROOM.disc.center, ROOM.disc.radius, facecolor=GLASS, edgecolor="#2a7fa8", alpha=0.5))
     axes.add_patch(Circle(LAMP_AT, 0.1, facecolor=LAMP, edgecolor=INK, lw=0.8, zorder=5))
     axes.set(xlim=(-2.05, 2.05), ylim=(-1.45, 3.05), aspect="equal")
     axes.axis("off")
-    axes.text(-2, 2.8, title, fontsize=12, weight="bold")
-    axes.text(0, -0.25, text, ha="center", va="top", fontsize=9.5)
+    axes.text(-2, 2.8, title, fontsize=11, weight="bold", in_layout=False)
+
+
+def caption(axes: plt.Axes, y: float, text: str) -> None:
+    axes.text(0, y, text, ha="center", va="top", fontsize=9.5, in_layout=False)
 
 
 def emissions(guided: bool) -> np.ndarray:
@@ -103,35 +106,14 @@ def draw_from_above(axes: plt.Axes, at: float, half: float, photons: np.ndarray)
 
 
 def draw() -> None:
-    figure, (first, second, third) = plt.subplots(1, 3, figsize=(13, 4.6))
-    draw_room(first, "1  Photons leave every lamp", "")
-    draw_room(second, "2  They learn where they are needed", "")
-    draw_room(third, "3  Pixels gather them", "")
-    third.text(
-        0,
-        -0.93,
-        "On a disc as large as what the pixel sees there, near or far\n(below: from above). No radius is in metres",
-        ha="center",
-        va="top",
-        fontsize=9.5,
-    )
+    figure, (first, second, third) = plt.subplots(1, 3, figsize=(10.4, 4.0))
+    draw_room(first, "1  Photons leave every lamp")
+    draw_room(second, "2  They learn where to go")
+    draw_room(third, "3  Pixels gather them")
     stored = draw_photons(first, False)
-    first.text(
-        0,
-        -0.25,
-        f"{stored} of {PHOTONS} are kept: those that glass\nor a mirror has thrown on a surface",
-        ha="center",
-        va="top",
-        fontsize=9.5,
-    )
+    caption(first, -0.25, f"{stored} of {PHOTONS} are kept: those that\nglass or a mirror has thrown\non a surface")
     stored = draw_photons(second, True)
-    second.text(
-        0,
-        -0.25,
-        f"{stored} of {PHOTONS} are kept. A fifth still leaves\nas at first, so no light is lost",
-        ha="center",
-        va="top",
-        fontsize=9.5,
-    )
+    caption(second, -0.25, f"{stored} of {PHOTONS} are kept. A fifth\nleaves as at first, so that\nno light is lost")
     draw_gather(third)
+    caption(third, -0.95, "on a disc of the pixel's size there,\nnear or far (below: from above)")
     save(figure, "photon-pass")

@@ -15,4 +15,4 @@ def draw() -> None:
         exr = render("metallic_ring", 16, width=480, height=480, photon_radius=radius)
         title = f"{radius:g} pixel{'s' if radius > 1 else ''}" + (" (default)" if radius == 1 else "")
         panels.append((title, show(load(exr, "C1")[CROP], 2)))
-    save(strip(panels), "radius")
+    save(strip(panels, 2), "radius")
