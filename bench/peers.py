@@ -26,12 +26,12 @@ PICTURES = (
 FIGURES = {"relmse": "whole picture", "relmse_caustic": "caustics"}
 REDUCED = (
     *("cardioid", "cardioid_filtered", "cycles34_default", "cycles34", "cycles34_shadow"),
-    *("luxcore_default", "luxcore", "luxcore_bidir", "mitsuba_default", "mitsuba"),
+    *("luxcore_default", "luxcore", "luxcore_bidir", "mitsuba", "mitsuba_particles"),
 )
 WHEEL_MODES = ("default", "path", "guided", "denoised")
 """Of the newest Blender at hand; --full takes all of all."""
-NOT_RIVALS = ("mitsuba_split", "mitsuba_particles")
-"""Only by name."""
+NOT_RIVALS = ("mitsuba_split",)
+"""Only by name: the method of the references."""
 
 
 def add_arguments(commands) -> None:

@@ -84,6 +84,7 @@ class Rival(Product):
         self.host, self.mode, self.start = host, mode, start
 
     script = ""
+    uses: tuple[str, ...] = ("runner.py", "scenes.py", "shapes.py")
 
     def command(self, scene: PeerScene, words: list[str]) -> list[str]:
         return [self.host, str(RIVALS / self.script), "--scene", scene.name, *words]
@@ -93,7 +94,7 @@ class Rival(Product):
 
     def stamp(self) -> str:
         """Changes with the program and with what runs inside it."""
-        return "-".join(programs.of_file(RIVALS / name) for name in (self.script, "scenes.py", "shapes.py"))
+        return "-".join(programs.of_file(RIVALS / name) for name in (self.script, *self.uses))
 
     def measured(self, setup: Setup, scene: PeerScene, mode: str, amount: list[str], seed: int) -> dict | None:
         """One process's record, made now if it is not there. None: out of time."""
@@ -189,6 +190,7 @@ class LuxCore(Package):
 
 class Mitsuba(Package):
     script, package = "render_mitsuba.py", "mitsuba"
+    uses = (*Rival.uses, "mitsuba_scene.py", "split.py")
 
 
 @cache
@@ -241,10 +243,13 @@ def packages(python: str) -> list[Product]:
     )
     bidir = "bidirectional; paths to 16, light paths to 12 bounces, Russian roulette off (it brightens by a tenth)"
     sampled = (
-        f"path tracer, correlated multi-jittered samples, {EQUAL}; what its manual offers for caustics, the particle "
-        "tracer, sees no mirrors and no glass"
+        f"path tracer, independent samples, {EQUAL}; its stratified samplers are of no use here: passes with other "
+        "seeds share most of their error"
     )
-    particles = f"particle tracer, {EQUAL}; what is seen in mirrors and through glass is missing"
+    particles = (
+        "particle tracer, which its manual has for scenes whose light the camera sees directly, so for caustics; what "
+        f"is seen in mirrors and through glass is missing; {EQUAL}"
+    )
     split = "the method of our references on Mitsuba's kernels, no part of Mitsuba: what the thesis's split can reach"
     return [
         LuxCore("luxcore_default", "LuxCore, defaults", "path tracer with nothing set", python, "default"),

@@ -44,7 +44,7 @@ def mesh(name: str, body: Body, normals: np.ndarray | None, surface: dict, emitt
     return made
 
 
-def load(scene: Scene, sampler: str = "independent") -> mi.Scene:
+def load(scene: Scene) -> mi.Scene:
     """The scene; each mesh stays a shape of its own, under its name."""
     camera = scene.camera
     look = mi.ScalarTransform4f().look_at(origin=list(camera.origin), target=list(camera.target), up=[0, 0, 1])
@@ -58,7 +58,7 @@ def load(scene: Scene, sampler: str = "independent") -> mi.Scene:
             "far_clip": 1e3,
             "to_world": look,
             "film": film | {"rfilter": {"type": "box"}},
-            "sampler": {"type": sampler},
+            "sampler": {"type": "independent"},
         },
     }
     for one in scene.meshes:

@@ -3,9 +3,8 @@
 
     .venv/peers/bin/python bench/rivals/render_mitsuba.py --scene cornell --mode path --cpu 30 --out OUT.exr
 
-Modes: `default` (path tracer with nothing set), `path` (as many bounces as all others, correlated multi-jittered
-samples), `particles` (particle tracer: no mirrors or glass are seen), `split` (the method of the references, no part of
-Mitsuba).
+Modes: `default` (path tracer with nothing set), `path` (as many bounces as all others), `particles` (particle tracer:
+what mirrors and glass show is missing), `split` (the method of the references, no part of Mitsuba).
 """
 
 from __future__ import annotations
@@ -23,9 +22,8 @@ from bench import exr
 from bench.rivals import runner, scenes
 
 MODES = ("default", "path", "particles", "split")
-SAMPLERS = {"path": "multijitter"}
 PASS = 16
-"""Samples a pixel and pass; a multiple of four, as the sampler wants."""
+"""Samples a pixel and pass; independent ones: passes of the stratified samplers share most of their error."""
 VARIANT = "llvm_ad_rgb"
 
 
@@ -52,13 +50,13 @@ def passes(chosen, clock: runner.Clock):
 def render(chosen) -> None:
     from bench.rivals import mitsuba_scene
 
-    scene = mitsuba_scene.load(scenes.ALL[chosen.scene](), SAMPLERS.get(chosen.mode, "independent"))
+    scene = mitsuba_scene.load(scenes.ALL[chosen.scene]())
     method = integrator(chosen.mode)
-    mi.render(scene, integrator=method, spp=4, seed=0).numpy()  # compiles the kernels
+    mi.render(scene, integrator=method, spp=1, seed=0).numpy()  # compiles the kernels
     clock = runner.Clock()
     total, samples = np.zeros((scenes.SIZE, scenes.SIZE, 3)), 0
     for index, count in enumerate(passes(chosen, clock)):
-        picture = mi.render(scene, integrator=method, spp=max(count, 4), seed=chosen.seed * 100003 + index).numpy()
+        picture = mi.render(scene, integrator=method, spp=count, seed=chosen.seed * 100003 + index).numpy()
         total += picture[..., :3].astype(np.float64) * count
         samples += count
     exr.save(Path(chosen.out), total / samples)
