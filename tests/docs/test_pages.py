@@ -43,6 +43,18 @@ def test_pages_that_the_repository_names_are_there(name: str):
 
 
 @pytest.mark.parametrize("page", pages.pages(), ids=lambda page: page.name)
+def test_commands_are_there(page: Path):
+    """Scripts that a page names, the bench's subcommands and the figures among them."""
+    text = page.read_text()
+    scripts = set(re.findall(r"\./scripts/(\w+)", text))
+    assert {name for name in scripts if not (pages.ROOT / "scripts" / name).is_file()} == set()
+    commands = set(re.findall(r"\./scripts/bench ([a-z]+)\b", text))
+    assert {name for name in commands if not (pages.ROOT / "bench" / f"{name}.py").is_file()} == set()
+    figures = set(re.findall(r"\./scripts/docs figures ([a-z_]+)", text))
+    assert {name for name in figures if not (pages.DOCS / "figures" / f"{name}.py").is_file()} == set()
+
+
+@pytest.mark.parametrize("page", pages.pages(), ids=lambda page: page.name)
 def test_pages_fetch_nothing(page: Path):
     text = page.read_text()
     assert re.findall(r"!\[[^\]]*\]\(https?:|<(?:img|script|iframe)[^>]*https?:|^```mermaid", text, re.MULTILINE) == []
