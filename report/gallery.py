@@ -58,9 +58,10 @@ def row(shot: Shot) -> str:
 def _demo_part(one: Comparison, what: str, folder: Path) -> str:
     """A scene's picture with the command under it."""
     shot = one.shots[0]
-    files.write_bytes(folder / f"{view.slug(one.scene)}.jpg", encode.jpeg_under(shot.image, LIMIT))
+    name = f"{view.slug(one.scene).replace('-', '_')}.jpg"
+    files.write_bytes(folder / name, encode.jpeg_under(shot.image, LIMIT))
     cpu = "" if shot.picture.cpu is None else f" {shot.picture.cpu:.0f} CPU seconds."
-    picture = f"![{escaped(what or title(one.scene))}](images/gallery/{view.slug(one.scene)}.jpg)"
+    picture = f"![{escaped(what.replace('`', '') or title(one.scene))}](images/gallery/{name})"
     return (
         f"## {title(one.scene)}\n\n{picture}\n\n"
         f"{what[:1].upper() + what[1:]}{'.' if what else ''}{cpu}\n\n    {shot.picture.settings}\n"
@@ -85,8 +86,10 @@ def write(docs: Path, comparisons: list[Comparison]) -> str:
     folder = docs / "images" / "gallery"
     what = captions(ROOT / "scenes" / "README.md")
     parts = [
-        "# Gallery\n\nEvery scene of `scenes/`, rendered by Cardioid with the command under the picture, in the"
-        " checkout, the add-on being installed. Written by `./scripts/report --demo --gallery docs`.\n"
+        "# Gallery\n\nThe scenes of `scenes/`, each rendered by Cardioid with the command under it, in the checkout,"
+        " the add-on being installed (`./scripts/demo` does that). No compositing, no retouching. `./scripts/report"
+        " --demo --gallery docs` renders every scene that has no picture yet, and writes this page."
+        " `scenes/README.md` says how the scenes are built.\n"
     ]
     parts += [_demo_part(c, what.get(c.scene, ""), folder) for c in comparisons if c.result == DEMO]
     pairs = [c for c in comparisons if c.result == PEERS and len(c.shots) > 1]

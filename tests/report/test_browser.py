@@ -204,6 +204,15 @@ def test_tables_sort_by_number_both_ways_with_gaps_last(opened: Opened) -> None:
     assert heads.nth(1).get_attribute("aria-sort") == "none"
 
 
+def test_every_verdict_is_in_the_table_and_sorts(opened: Opened) -> None:
+    table = opened.page.locator("table.verdicts")
+    badges = table.locator("tbody .badge")
+    assert badges.all_inner_texts() == ["holds", "does not hold", "cannot be told"]
+    assert "30.1 s against 12.3 s" in table.locator("tr.no").inner_text()
+    table.locator("th button").first.click()
+    assert badges.all_inner_texts() == ["cannot be told", "does not hold", "holds"]
+
+
 def test_the_button_turns_the_scheme(opened: Opened) -> None:
     paper = "getComputedStyle(document.body).backgroundColor"
     before = opened.page.evaluate(paper)
