@@ -113,6 +113,7 @@ def write_atomically(path: Path, text: str) -> None:
         try:
             file.write(text)
             file.flush()
+            os.chmod(file.name, 0o644)
             os.replace(file.name, path)
         except OSError:
             os.unlink(file.name)
