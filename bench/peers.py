@@ -11,7 +11,7 @@ from . import options as common
 from .progress import Progress
 
 MARKS, FULL_MARKS = "12", "30,120"
-COLUMNS = {"scene": "", "mark": "g", "title": "", "runs": "d", "cpu": ".1f", "cpu_process": ".1f", "samples": ".0f"}
+COLUMNS = {"scene": "", "mark": "g", "title": "", "runs": "d", "cpu": ".1f", "cpu_process": ".1f", "samples": ".3g"}
 COLUMNS |= {"relmse": ".5f", "relmse_trim": ".5f", "relmse_caustic": ".5f", "flip": ".4f"}
 COLUMNS |= {"energy": ".4f", "energy_caustic": ".4f", "reference": ".1%"}
 NOTE = (
@@ -21,7 +21,8 @@ NOTE = (
 )
 PICTURES = (
     "Pictures: one exposure a scene (the reference's 80 % quantile at half of white), a shoulder above 0.7 of white, "
-    "sRGB's curve; no denoising but where the name says it."
+    "sRGB's curve; no denoising but where the name says it. Lamps of Cycles and Cardioid are not seen by the camera, those "
+    "of the others are: pixels that show one are compared in no figure."
 )
 FIGURES = {"relmse": "whole picture", "relmse_caustic": "caustics"}
 REDUCED = (

@@ -110,7 +110,7 @@ class Rival(Product):
         path.parent.mkdir(parents=True, exist_ok=True)
         words = ["--mode", mode, *amount, "--seed", str(seed), "--threads", str(setup.threads), "--out", str(path)]
         cost = measure.run(self.command(scene, words), env={"PYTHONDONTWRITEBYTECODE": "1", **self.environment()})
-        return setup.records.add(key, result_of(self.title, cost, path)) | {"path": str(path)}
+        return setup.records.add(key, result_of(cost, path)) | {"path": str(path)}
 
     def once(self, setup: Setup, scene: PeerScene) -> dict | None:
         """Start-up: one sample."""
@@ -130,14 +130,14 @@ class Rival(Product):
         return found | {"cpu": run["cpu_process"] - start["cpu_process"], "cpu_process": run["cpu_process"]}
 
 
-def result_of(title: str, cost: measure.Cost, path: Path) -> dict:
+def result_of(cost: measure.Cost, path: Path) -> dict:
     """A process's record from what it printed. RuntimeError, one line, without a picture."""
     found = [json.loads(text[7:]) for _, text in cost.lines if text.startswith("RESULT ")]
     if not found or not path.exists():
         if store.disk_is_full(path.parent):
             raise store.DiskFull.of("No space left on device", path)
         said = [text.strip() for _, text in cost.lines if text.strip() and not text.startswith("Blender quit")][-2:]
-        raise RuntimeError(f"{title} ended with exit code {cost.code}: {' | '.join(said) or 'nothing was printed'}")
+        raise RuntimeError(f"ended with exit code {cost.code}: {' | '.join(said) or 'nothing was printed'}")
     return found[-1] | {"cpu_process": cost.cpu, "wall_process": cost.wall, "load": cost.load}
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 TITLES = {
     "cpu": "CPU s",
+    "cpu_process": "whole process, CPU s",
+    "title": "renderer",
     "mark": "mark, CPU s",
     "relmse": "relMSE",
     "relmse_trim": "relMSE, trimmed",

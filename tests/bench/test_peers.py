@@ -86,7 +86,7 @@ def test_a_changed_program_is_measured_anew(setup, scene):
 def test_a_program_that_fails_is_left_out_with_its_last_words(setup, scene):
     chosen, missing = {"fake": fake("broken"), "other": fake()}, []
     assert peers.measure_one(setup, chosen, "fake", scene, 1, 12.0, missing) is None
-    assert list(chosen) == ["other"] and missing == ["Fake: Fake ended with exit code 2: no device"]
+    assert list(chosen) == ["other"] and missing == ["Fake: ended with exit code 2: no device"]
     assert peers.measure_one(setup, chosen, "other", scene, 1, 12.0, missing)["energy"] == pytest.approx(0.5)
 
 
