@@ -21,8 +21,8 @@ NOTE = (
 )
 PICTURES = (
     "Pictures: one exposure a scene (the reference's 80 % quantile at half of white), a shoulder above 0.7 of white, "
-    "sRGB's curve; no denoising but where the name says it. Lamps of Cycles and Cardioid are not seen by the camera, those "
-    "of the others are: pixels that show one are compared in no figure."
+    "sRGB's curve; no denoising but where the name says it. Lamps of Cycles and Cardioid are not seen by the camera, "
+    "those of the others are: pixels that show one are compared in no figure."
 )
 FIGURES = {"relmse": "whole picture", "relmse_caustic": "caustics"}
 REDUCED = (
