@@ -31,7 +31,7 @@ def slate() -> bpy.types.Material:
     bent = g.vector_math("MULTIPLY_ADD", clouds, (0.03, 0.03, 0.0), at)
     vein = g.node("TexNoise", {"Vector": bent, "Scale": 17.0, "Detail": 6.0}).outputs["Fac"]
     ridge = g.math("ABSOLUTE", g.math("SUBTRACT", vein, 0.5))
-    base = g.ramp(clouds, [(0.34, (0.012, 0.014, 0.018)), (0.66, (0.034, 0.037, 0.043))])
+    base = g.ramp(clouds, [(0.34, (0.010, 0.011, 0.014)), (0.66, (0.026, 0.028, 0.033))])
     veined = g.mix_color(1.0, base, g.ramp(ridge, [(0.0, (2.1, 2.0, 1.9)), (0.012, (1, 1, 1))]), "MULTIPLY")
     color = g.mix_color(1.0, veined, g.ramp(grain, [(0.35, (0.72, 0.72, 0.72)), (0.65, (1, 1, 1))]), "MULTIPLY")
     bump = g.node("Bump", {"Height": grain, "Strength": 0.30, "Distance": 0.0002}).outputs["Normal"]
@@ -123,15 +123,15 @@ def build() -> None:
     diamond = c.material("diamond", "BsdfGlass", Color=(1, 1, 1), Roughness=0.0, IOR=2.417, distribution="SHARP")
     ring(diamond)
     loose(diamond)
-    lamp("lamp_left", (-0.13, 0.055, 0.036), 1.9, 0.0008, (1.0, 0.82, 0.60))
-    lamp("lamp_right", (0.12, 0.02, 0.032), 1.3, 0.0008, (0.70, 0.84, 1.0))
-    lamp("lamp_front", (0.03, -0.10, 0.11), 0.5, 0.0008, (1.0, 0.95, 0.90))
-    c.area_lamp("softbox_left", (-0.12, -0.14, 0.10), (0, 0, 0.005), 0.10, 0.08, (1.0, 0.93, 0.85))
+    lamp("lamp_left", (-0.125, 0.050, 0.025), 2.6, 0.0007, (1.0, 0.80, 0.56))
+    lamp("lamp_right", (0.115, 0.020, 0.022), 1.9, 0.0007, (0.66, 0.82, 1.0))
+    lamp("lamp_front", (0.05, -0.14, 0.060), 0.45, 0.0008, (1.0, 0.95, 0.90))
+    c.area_lamp("softbox_left", (-0.12, -0.14, 0.10), (0, 0, 0.005), 0.07, 0.045, (1.0, 0.93, 0.85))
     c.area_lamp("softbox_back", (0.06, 0.20, 0.10), (0, 0, 0.005), 0.08, 0.02, (0.85, 0.92, 1.0))
     c.world((0.20, 0.24, 0.32), 0.05)
     c.camera((0.006, -0.130, 0.088), (0.0005, -0.0065, 0.003), 118, focus=(-0.006, -0.016, 0.007), fstop=22.0)
     scene.camera.data.clip_start = 0.001
-    scene.view_settings.exposure = 0.9
+    scene.view_settings.exposure = 1.2
     c.save(c.output_path(os.path.join(HERE, "diamond_ring.blend")))
 
 
