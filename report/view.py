@@ -81,8 +81,8 @@ def filtered(shot: Shot) -> bool:
 def first_pair(comparison: Comparison) -> tuple[int, int]:
     """Indices of the pictures that the slider begins with: a rival left, ours with the least error right.
 
-    Unfiltered ones, where there are any. The rival is Cycles where it is there, of its runs the one nearest in CPU
-    seconds; without a rival the reference.
+    Unfiltered ones, where there are any. The rival is Cycles where it is there, of its runs in about the same CPU
+    seconds the one with the least error; without a rival the reference.
     """
     shots = comparison.shots
     rivals = [s for s in shots if not s.picture.reference and not ours(s)]
@@ -91,13 +91,20 @@ def first_pair(comparison: Comparison) -> tuple[int, int]:
     rivals = _unfiltered([s for s in rivals if s is not right])
     cycles = [s for s in rivals if "cycles" in s.picture.label.lower()]
     others = cycles or rivals or [s for s in shots if s is not right]
-    left = min(others, key=lambda s: abs(_or_big(s.picture.cpu) - _or_big(right.picture.cpu)))
+    left = min(_as_long(others, right), key=lambda s: _or_big(s.picture.error))
     return shots.index(left), shots.index(right)
 
 
 def _unfiltered(shots: list[Shot]) -> list[Shot]:
     """Those without a filter, or all if all have one."""
     return [s for s in shots if not filtered(s)] or shots
+
+
+def _as_long(shots: list[Shot], other: Shot) -> list[Shot]:
+    """Those of at most half as many CPU seconds again as another's, and not under two thirds; all if there are none."""
+    wanted = other.picture.cpu or 0.0
+    near = [s for s in shots if s.picture.cpu is not None and wanted / 1.5 <= s.picture.cpu <= wanted * 1.5]
+    return near or shots
 
 
 def _or_big(value: float | None) -> float:

@@ -79,19 +79,20 @@ def shot(label: str, error: float | None, cpu: float, reference: bool = False) -
     return Shot(Picture("s", label, "f", "", cpu, error, 1.0, reference), Image.new("RGB", (4, 4)), label)
 
 
-def test_the_slider_begins_with_cycles_and_our_best_at_about_equal_time() -> None:
+def test_the_slider_begins_with_the_best_of_cycles_and_ours_at_about_equal_time() -> None:
     shots = [
         shot("Reference", None, 900.0, True),
         shot("Cycles, 120 s", 0.1, 120.0),
         shot("Cycles, 30 s", 0.2, 30.0),
+        shot("Cycles full depth, 29 s", 0.3, 29.0),
         shot("LuxCore", 0.01, 29.0),
         shot("Cardioid PT", 0.3, 30.0),
         shot("Cardioid PTPPM", 0.02, 29.0),
         shot("Cardioid PTPPM + filter", 0.01, 29.0),
         shot("Cycles + OIDN", 0.01, 29.0),
     ]
-    assert view.first_pair(Comparison("r", "s", shots)) == (2, 5)
-    assert view.first_pair(Comparison("r", "s", [shots[0], shots[5]])) == (0, 1)
+    assert view.first_pair(Comparison("r", "s", shots)) == (2, 6)
+    assert view.first_pair(Comparison("r", "s", [shots[0], shots[6]])) == (0, 1)
     assert view.first_pair(Comparison("r", "s", shots[1:3])) == (0, 1)
 
 
