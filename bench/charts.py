@@ -68,11 +68,10 @@ def memory(rows: list[dict], sizes: list[dict], path: Path) -> bool:
     pyplot = canvas()
     if pyplot is None:
         return False
-    picture, (left, right) = pyplot.subplots(1, 2, figsize=(11, 3.0), layout="constrained")
+    picture, (left, right) = pyplot.subplots(1, 2, figsize=(11, 3.3), layout="constrained")
     if rows:
         keys = {"per_triangle": "a triangle", "per_pixel": "a pixel"}
         grouped(left, list(keys.values()), {row["who"]: [row[key] for key in keys] for row in rows}, ".0f")
-        left.legend(frameon=False, fontsize=8, loc="lower right")
     left.set_title("bytes", fontsize=10)
     left.invert_yaxis()
     right.invert_yaxis()
@@ -81,7 +80,8 @@ def memory(rows: list[dict], sizes: list[dict], path: Path) -> bool:
     series = {who: [by.get((scene, who)) for scene in scenes] for who in ("ours", "thesis")}
     grouped(right, [scene.replace("_", " ") for scene in scenes], series, ".0f")
     right.set_title("MB of clusters with their buffers, 768², 16 samples", fontsize=10)
-    right.legend(frameon=False, fontsize=8, loc="lower right")
+    for axes in (left, right):
+        axes.legend(frameon=False, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2)
     picture.savefig(path, dpi=150)
     pyplot.close(picture)
     return True
