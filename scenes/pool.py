@@ -16,47 +16,14 @@ COPING = 0.34
 SUN = Vector((2.2, -4.3, 6.6)).normalized()
 
 
-def mosaic(name: str, tones, joint, size: float = 0.05) -> bpy.types.Material:
-    """Glazed square tiles, each of its own tone between `tones`, with a joint that lies a little deeper."""
-    g = c.Graph(bpy.data.materials.new(name))
-    uv = g.node("UVMap").outputs["UV"]
-    tiles = g.node(
-        "TexBrick",
-        {
-            "Vector": uv,
-            "Color1": (0, 0, 0),
-            "Color2": (1, 1, 1),
-            "Mortar": (0.5, 0.5, 0.5),
-            "Scale": 1.0,
-            "Mortar Size": 0.035 * size,
-            "Mortar Smooth": 0.3,
-            "Bias": 0.0,
-            "Brick Width": size,
-            "Row Height": size,
-        },
-        offset=0.0,
-        squash=1.0,
-    )
-    cloud = g.node("TexNoise", {"Vector": uv, "Scale": 0.7, "Detail": 3.0}).outputs["Fac"]
-    tone = g.math("MULTIPLY_ADD", cloud, 0.5, g.math("MULTIPLY", tiles.outputs["Color"], 0.75))
-    color = g.mix_color(tiles.outputs["Fac"], g.ramp(tone, tones), joint)
-    bump = g.node("Bump", {"Height": tiles.outputs["Fac"], "Strength": 0.5, "Distance": 0.003}, invert=True)
-    return g.surface(
-        g.node(
-            "BsdfPrincipled",
-            {"Base Color": color, "Roughness": 0.28, "Specular": 0.3, "Normal": bump.outputs["Normal"]},
-        )
-    )
-
-
 def blue_tiles() -> bpy.types.Material:
     tones = [(0.1, (0.34, 0.60, 0.66)), (0.5, (0.47, 0.71, 0.75)), (0.95, (0.62, 0.81, 0.83))]
-    return mosaic("pool tiles", tones, (0.70, 0.76, 0.76))
+    return surfaces.mosaic("pool tiles", tones, (0.70, 0.76, 0.76))
 
 
 def band_tiles() -> bpy.types.Material:
     tones = [(0.1, (0.012, 0.050, 0.115)), (0.5, (0.022, 0.095, 0.19)), (0.95, (0.060, 0.20, 0.30))]
-    return mosaic("band tiles", tones, (0.55, 0.60, 0.62))
+    return surfaces.mosaic("band tiles", tones, (0.55, 0.60, 0.62))
 
 
 def basin() -> None:

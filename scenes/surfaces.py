@@ -188,3 +188,36 @@ def teak() -> bpy.types.Material:
     return g.surface(
         g.node("BsdfPrincipled", {"Base Color": color, "Roughness": 0.42, "Specular": 0.4, "Normal": bump})
     )
+
+
+def mosaic(name: str, tones, joint, size: float = 0.05, roughness: float = 0.28) -> bpy.types.Material:
+    """Glazed square tiles, each of its own tone between `tones`, with a joint that lies a little deeper."""
+    g = c.Graph(bpy.data.materials.new(name))
+    uv = g.node("UVMap").outputs["UV"]
+    tiles = g.node(
+        "TexBrick",
+        {
+            "Vector": uv,
+            "Color1": (0, 0, 0),
+            "Color2": (1, 1, 1),
+            "Mortar": (0.5, 0.5, 0.5),
+            "Scale": 1.0,
+            "Mortar Size": 0.035 * size,
+            "Mortar Smooth": 0.3,
+            "Bias": 0.0,
+            "Brick Width": size,
+            "Row Height": size,
+        },
+        offset=0.0,
+        squash=1.0,
+    )
+    cloud = g.node("TexNoise", {"Vector": uv, "Scale": 0.7, "Detail": 3.0}).outputs["Fac"]
+    tone = g.math("MULTIPLY_ADD", cloud, 0.5, g.math("MULTIPLY", tiles.outputs["Color"], 0.75))
+    color = g.mix_color(tiles.outputs["Fac"], g.ramp(tone, tones), joint)
+    bump = g.node("Bump", {"Height": tiles.outputs["Fac"], "Strength": 0.5, "Distance": 0.003}, invert=True)
+    return g.surface(
+        g.node(
+            "BsdfPrincipled",
+            {"Base Color": color, "Roughness": roughness, "Specular": 0.3, "Normal": bump.outputs["Normal"]},
+        )
+    )
