@@ -106,6 +106,29 @@ def test_a_reference_comes_back(tmp_path):
     assert found.record["cpu_seconds"] == 3
 
 
+def test_references_are_merged_by_their_errors():
+    rng = np.random.default_rng(4)
+    sigmas, truth, size = (0.1, 0.05), 0.5, (200, 200)
+    nothing = np.zeros(size, bool)
+    nothing[0] = True  # somewhere a caustic, so that it has an error
+    counts = {"cpu_seconds": 10, "light_paths": 5, "camera_samples": 2}
+    found = [
+        stored.Stored(
+            truth + sigma * rng.standard_normal((*size, 3)),
+            np.full(size, sigma),
+            ~nothing & nothing,
+            nothing,
+            counts | {"rmse": sigma, "seeds": [index], "made": "so"},
+        )
+        for index, sigma in enumerate(sigmas)
+    ]
+    made = stored.merged(*found)
+    expected = (sum(sigma**-2 for sigma in sigmas)) ** -0.5
+    assert np.sqrt(((made.pixels - truth) ** 2).mean()) == pytest.approx(expected, rel=0.02)
+    assert made.record["rmse"] == pytest.approx(expected, rel=1e-3)
+    assert made.record["cpu_seconds"] == 20 and made.record["seeds"] == [0, 1]
+
+
 def test_a_reference_of_another_scene_is_refused_in_one_sentence(tmp_path):
     stored.write(tmp_path, "ring", a_reference())
     told = json.loads((tmp_path / "ring.json").read_text())
