@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from . import class_figures, class_verdicts, exr, film_reader, filter_runs, metrics, outcome, result, runs
+from . import class_figures, class_rows, class_verdicts, exr, film_reader, filter_runs, outcome, result, runs
 from . import options as common
+from .class_verdicts import CLASSES
 from .engines import Job
 from .progress import Progress
 
-CLASSES = ("D1", "D2", "D3", "C1", "C2")
 SAME = "caustic_roughness=0.1"
 """What counts as a mirror decides which class a path is in; the add-on gives path tracing another value of it."""
 METHODS = {
@@ -25,12 +25,6 @@ METHODS = {
     "PTPPM": ("integrator=hybrid", SAME),
     "SPPM": ("integrator=photon_mapping", "photons=65536", SAME),
 }
-OWNERS = {
-    "PT": dict.fromkeys(CLASSES, "camera paths"),
-    "PTPPM": dict.fromkeys(CLASSES, "camera paths") | {"C1": "photons and camera paths, weighed"},
-    "SPPM": dict.fromkeys(CLASSES, "photons") | {"D1": "camera paths"},
-}
-"""engine_cpp/path/partition.h with the add-on's defaults."""
 DEPOSITS = {
     "SPPM, all light": ("integrator=photon_mapping", "guided_emission=false"),
     "PTPPM, unguided": ("integrator=hybrid", "guided_emission=false"),
@@ -39,24 +33,6 @@ DEPOSITS = {
 FEW = ("photons=15000", "photon_radius=0.7", "indirect_caustics=photons", "blend_caustic_hits=false", SAME)
 """So few photons, gathered from so near, that a picture shows them one by one."""
 LONG, PARTS = 16, 2
-COLUMNS = {
-    "scene": ["scene", ""],
-    "method": ["method", ""],
-    "class": ["class", ""],
-    "by": ["estimated by", ""],
-    "cpu": ["CPU s", ".1f"],
-    "samples": ["samples", "d"],
-    "noise": ["relMSE by scatter", ".5f"],
-    "noise_share": ["of all error", ".1%"],
-    "energy": ["energy over path tracing's", ".4f"],
-    "share": ["of the light", ".2%"],
-    "photons": ["of it by photons", ".1%"],
-}
-NOTE = (
-    "Equal CPU seconds, two seeds. Error: the scatter of the seeds over the whole picture's brightness; it sees no "
-    "bias. Energy sees it: the class's mean over that of path tracing with sixteen times the samples, whose noise is "
-    "in it too. Photons' share: from the film of the first seed, which keeps what they bring apart."
-)
 
 
 @dataclass
@@ -134,11 +110,15 @@ def measure(records, options, engine, scene, progress: Progress) -> Scene | None
 
 def add_photons(found: Scene, film: filter_runs.Film, method: str) -> None:
     """The part of photons of the first seed's picture, from a run of the same samples that keeps its film."""
-    if method not in found.methods or film.rendered() is None:
+    if method not in found.methods:
         return
-    raw = load(film.picture("-raw"))
-    found.methods[method][0].photons = photon_part(film_reader.read(film.path), raw["D1"])
-    film.forget()
+    path = film.picture("-photons")
+    if not path.exists():
+        if film.rendered() is None:
+            return
+        exr.save(path, photon_part(film_reader.read(film.path), load(film.picture("-raw"))["D1"]))
+        film.forget()
+    found.methods[method][0].photons = exr.load(path)
 
 
 def add_deposits(found: Scene, records, options, engine, base: Job) -> None:
@@ -150,42 +130,6 @@ def add_deposits(found: Scene, records, options, engine, base: Job) -> None:
             planes = load(Path(run["path"]))
             light = planes["Combined"] - planes["D1"] if "SPPM" in name else planes["C1"] + planes["C2"]
             found.deposits[name] = light.mean(-1), run["stats"]["photons"]
-
-
-def error(pictures: list[Pictures], plane: str, whole: np.ndarray) -> float:
-    """relMSE of one picture of a class by the scatter of several, over the brightness of the whole; 0 with one."""
-    stack = np.array([one.planes[plane].mean(-1) for one in pictures], np.float64)
-    return float((stack.var(0, ddof=1) / (whole * whole + metrics.EPSILON)).mean()) if len(stack) > 1 else 0.0
-
-
-def rows_of(scene: Scene) -> list[dict]:
-    """A row a method and class, and one of the sum."""
-    rows = []
-    truth = {name: np.mean([one.planes[name].mean() for one in scene.long]) for name in (*CLASSES, "Combined")}
-    whole = np.mean([one.planes["Combined"] for one in scene.long], 0).mean(-1)
-    for method, pictures in scene.methods.items():
-        squares = {name: error(pictures, name, whole) for name in (*CLASSES, "Combined")}
-        means = {name: float(np.mean([one.planes[name].mean() for one in pictures])) for name in squares}
-        parts = sum(squares[name] for name in CLASSES)
-        for name in squares:
-            row = {"scene": scene.name, "method": method, "class": name, "by": OWNERS[method].get(name, "")}
-            row |= {"cpu": float(np.mean([one.cpu for one in pictures])), "samples": pictures[0].samples}
-            row |= {"noise": squares[name], "energy": float(means[name] / max(truth[name], 1e-12))}
-            row |= {"share": means[name] / max(means["Combined"], 1e-12)}
-            if name in CLASSES:
-                row["noise_share"] = squares[name] / max(parts, 1e-30)
-            row["photons"] = photon_share(method, name, pictures[0])
-            rows.append(row)
-    return rows
-
-
-def photon_share(method: str, name: str, picture: Pictures) -> float | None:
-    """Which share of a class's light photons brought; None where the film does not tell classes apart."""
-    if picture.photons is None:
-        return None
-    if name == "Combined" or (method == "PTPPM" and name == "C1"):
-        return float(picture.photons.mean() / max(picture.planes[name].mean(), 1e-12))
-    return 1.0 if OWNERS[method][name] == "photons" else 0.0
 
 
 def run(options, found) -> int:
@@ -204,9 +148,9 @@ def run(options, found) -> int:
             out.missing.append(f"{scene.name}: out of time")
             continue
         scenes.append(measured)
-        rows += rows_of(measured)
+        rows += class_rows.of_scene(measured)
     title = "Energy, error and estimator of each class in each method"
-    out.tables = [result.Table("classes", title, COLUMNS, rows, NOTE)]
+    out.tables = [result.Table("classes", title, class_rows.COLUMNS, rows, class_rows.NOTE)]
     out.verdicts = class_verdicts.all_of(scenes, rows)
     out.settings = {name: f"{', '.join(how)}; 24 bounces; {options.seconds:g} CPU s" for name, how in METHODS.items()}
     out.versions = {"cardioid-render": engine.stamp()}

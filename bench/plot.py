@@ -1,20 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Efficiency of an engine over its rival's, scene by scene; error over CPU time and over samples."""
+"""Efficiency of an engine over its rival's, scene by scene; error over CPU time; stages' shares of it."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from .charts import canvas
+
 
 def efficiency(rows: list[dict], ours: str, rival: str, path: Path) -> bool:
     """Writes a bar chart of the ratios with quartiles and the bars asked for; False without matplotlib."""
-    try:
-        import matplotlib
-    except ImportError:
+    pyplot = canvas()
+    if pyplot is None:
         return False
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
     chosen = [r for r in rows if r["engine"] == ours and r["mask"] == "all"]
     figure, axes = pyplot.subplots(figsize=(1.6 + 1.3 * max(len(chosen), 2), 4.2), layout="constrained")
     for shift, key, label in ((-0.2, "ratio", "whole process"), (0.2, "ratio_net", "without start-up and export")):
@@ -44,13 +42,9 @@ def curves(rows: list[dict], path: Path, floors: dict[str, float], figure: str =
     `floors`: each reference's own expected error. Bands reach from the least to the greatest of the seeds
     (`<figure>_low`, `<figure>_high`).
     """
-    try:
-        import matplotlib
-    except ImportError:
+    pyplot = canvas()
+    if pyplot is None:
         return False
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     picture, panels = pyplot.subplots(
         2,
@@ -93,49 +87,6 @@ def curves(rows: list[dict], path: Path, floors: dict[str, float], figure: str =
     return True
 
 
-def over_samples(rows: list[dict], path: Path, figure: str = "relmse") -> bool:
-    """Writes the error over the number of samples, a panel a scene and a line a method; False without matplotlib."""
-    try:
-        import matplotlib
-    except ImportError:
-        return False
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    scenes = list(dict.fromkeys(row["scene"] for row in rows))
-    methods = list(dict.fromkeys(row["method"] for row in rows))
-    across = min(len(scenes), 3) or 1
-    down = -(-len(scenes) // across) or 1
-    picture, panels = pyplot.subplots(down, across, figsize=(4.6 * across, 3.8 * down), squeeze=False)
-    for scene, axes in zip(scenes, panels.ravel()):
-        for index, method in enumerate(methods):
-            own = [row for row in rows if row["scene"] == scene and row["method"] == method and row[figure] > 0]
-            if own:
-                style = "o-" if len(own) > 1 else "x"
-                width = 2.4 if method == "clusters" else 1.0
-                axes.loglog(
-                    [row["taken"] for row in own],
-                    [row[figure] for row in own],
-                    style,
-                    color=f"C{index % 10}",
-                    linewidth=width,
-                    markersize=4 if style == "o-" else 7,
-                    label=method,
-                )
-        axes.set_title(scene)
-        axes.set_xlabel("samples")
-        axes.set_ylabel(figure)
-        axes.grid(True, which="both", linewidth=0.3)
-        counts = sorted({row["samples"] for row in rows})
-        axes.set_xticks(counts, [str(count) for count in counts])
-        axes.set_xticks([], minor=True)
-    panels[0][0].legend(fontsize=7)
-    picture.tight_layout()
-    picture.savefig(path, dpi=120)
-    pyplot.close(picture)
-    return True
-
-
 PARTS = {
     "camera": ("path tracing (with gathering in ours)", "#0072b2"),
     "gather": ("gathering", "#56b4e9"),
@@ -149,13 +100,9 @@ PARTS = {
 
 def stages(rows: list[dict], path: Path) -> bool:
     """Writes the stages' shares of each row's time as bars, scene by scene (Table 5.2); False without matplotlib."""
-    try:
-        import matplotlib
-    except ImportError:
+    pyplot = canvas()
+    if pyplot is None:
         return False
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
     scenes = list(dict.fromkeys(row["scene"] for row in rows))
     picture, panels = pyplot.subplots(
         1, max(len(scenes), 1), figsize=(3.4 * len(scenes) + 1.2, 3.0), squeeze=False, sharey=True, layout="constrained"

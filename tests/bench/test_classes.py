@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bench import class_figures, class_verdicts, classes, film_reader, pictures
+from bench import class_figures, class_rows, class_verdicts, classes, film_reader, pictures
 
 SIZE = (40, 50, 3)
 MEANS = {"D1": 0.1, "D2": 0.4, "D3": 0.2, "C1": 0.1, "C2": 0.05}
@@ -65,7 +65,7 @@ def test_missing_light_of_one_class_is_caught_and_noise_is_not():
 
 
 def test_rows_hold_shares_of_light_and_of_error():
-    rows = {(row["method"], row["class"]): row for row in classes.rows_of(scene())}
+    rows = {(row["method"], row["class"]): row for row in class_rows.of_scene(scene())}
     assert sum(rows["PT", name]["share"] for name in MEANS) == pytest.approx(1.0, abs=1e-5)
     assert sum(rows["PTPPM", name]["noise_share"] for name in MEANS) == pytest.approx(1.0)
     assert rows["PT", "D2"]["share"] == pytest.approx(0.4 / 0.85, rel=0.02)
@@ -75,8 +75,8 @@ def test_rows_hold_shares_of_light_and_of_error():
 
 
 def test_every_class_has_an_estimator_in_every_method():
-    for owners in classes.OWNERS.values():
-        assert tuple(owners) == classes.CLASSES == class_verdicts.CLASSES
+    for owners in class_rows.OWNERS.values():
+        assert tuple(owners) == class_rows.CLASSES == class_verdicts.CLASSES
 
 
 def test_the_photons_part_is_what_no_layer_holds_without_emission():
