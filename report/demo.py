@@ -16,8 +16,13 @@ from .collect import DEMO, read
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = 256
-MORE = {"bust_in_water": ["--cardioid-indirect-caustics", "photons"]}
-"""What a scene needs beside the defaults: in the water most light is caustics of scattered light."""
+MORE = {
+    "bust_in_water": ["--cardioid-indirect-caustics", "photons"],
+    "window_room": ["--cardioid-photon-radius", "6"],
+    "bathroom_mirror": ["--cardioid-photon-radius", "2"],
+}
+"""What a scene needs beside the defaults: in the water most light is caustics of scattered light; in the rooms photons,
+which the filter leaves as they are, bring nearly all light to the walls, so they are gathered from further around."""
 ADDON = ROOT / "addon" / "cardioid"
 
 
