@@ -101,6 +101,8 @@ def run_all(chosen, found) -> int:
         print(f"== {name}", flush=True)
         try:
             code = MODULES[name].run(own, found)
+        except store.DiskFull:
+            raise
         except (RuntimeError, ValueError, SystemExit) as error:
             print(f"{name}: {error}", file=sys.stderr)
             code = 1

@@ -58,6 +58,29 @@ def test_all_shares_its_budget(tmp_path, monkeypatch):
     assert command.main(["all", "--cache", str(tmp_path)]) == 1
 
 
+def test_all_goes_on_after_a_failure_but_not_after_a_full_disk(tmp_path, monkeypatch, capsys):
+    class Fake:
+        def __init__(self, name, error):
+            self.name, self.error = name, error
+
+        def add_arguments(self, commands):
+            commands.add_parser(self.name)
+
+        def run(self, chosen, found):
+            print(f"{self.name} ran")
+            if self.error:
+                raise self.error
+            return 0
+
+    fakes = {"a": Fake("a", RuntimeError("broken")), "b": Fake("b", None), "c": Fake("c", store.DiskFull("full"))}
+    fakes["d"] = Fake("d", None)
+    monkeypatch.setattr(command, "MODULES", fakes)
+    assert command.main(["all", "--cache", str(tmp_path)]) == 1
+    said = capsys.readouterr()
+    assert "b ran" in said.out and "d ran" not in said.out
+    assert "a: broken" in said.err and "full" in said.err
+
+
 def test_a_run_that_would_overrun_is_not_started(tmp_path):
     records = store.Store(tmp_path / "r.jsonl", 10.0)
     key = ("run", "engine", 1)
