@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = 256
 MORE = {
     "bust_in_water": ["--cardioid-indirect-caustics", "photons"],
+    "light_bulb": ["--cardioid-photon-radius", "3"],
     "window_room": ["--cardioid-photon-radius", "6"],
     "bathroom_mirror": ["--cardioid-photon-radius", "2"],
 }
