@@ -69,7 +69,8 @@ def owners(scenes: list) -> Verdict:
 
 
 def scatter(pictures: list, plane: str) -> float:
-    """Squared standard error of the mean of a plane over pixels and pictures, by the difference of two pictures."""
+    """Squared standard error of the mean of a plane, by the difference of two pictures, as if pixels were independent:
+    photons that several pixels share make it somewhat too small."""
     if len(pictures) < 2:
         return 0.0
     spread = np.array([one.planes[plane].mean(-1) for one in pictures], np.float64).var(0, ddof=1)
