@@ -13,6 +13,7 @@ from bench import measure
 from bench.result import Picture, Result, commit, folder, save
 
 from .collect import DEMO, read
+from .gallery import scene_names
 
 ROOT = Path(__file__).resolve().parents[1]
 SAMPLES = 256
@@ -60,7 +61,7 @@ def render(scene: str, words: list[str], target: Path) -> float:
 
 def chosen(names: list[str] | None) -> list[str]:
     """The scenes to render, by name. ValueError for one that is not there."""
-    there = sorted(path.stem for path in (ROOT / "scenes").glob("*.blend"))
+    there = scene_names()
     unknown = [name for name in names or [] if name not in there]
     if unknown:
         raise ValueError(f"no such scene: {', '.join(unknown)}; there are {', '.join(there)}")

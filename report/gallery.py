@@ -31,6 +31,11 @@ def title(scene: str) -> str:
     return scene.replace("_", " ").capitalize()
 
 
+def scene_names() -> list[str]:
+    """Of the files of scenes/."""
+    return sorted(path.stem for path in (ROOT / "scenes").glob("*.blend"))
+
+
 def pair(left: Image.Image, right: Image.Image) -> Image.Image:
     """Two pictures of one size side by side."""
     both = Image.new("RGB", (2 * left.width + GAP, left.height), "white")
@@ -92,6 +97,11 @@ def write(docs: Path, comparisons: list[Comparison]) -> str:
         " `scenes/README.md` says how the scenes are built.\n"
     ]
     parts += [_demo_part(c, what.get(c.scene, ""), folder) for c in comparisons if c.result == DEMO]
+    waiting = [
+        title(name) for name in scene_names() if not any(c.result == DEMO and c.scene == name for c in comparisons)
+    ]
+    if waiting:
+        parts[0] += f"\nNo picture yet: {', '.join(waiting)}.\n"
     pairs = [c for c in comparisons if c.result == PEERS and len(c.shots) > 1]
     if pairs:
         parts.append(

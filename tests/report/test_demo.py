@@ -50,7 +50,11 @@ def test_the_command_is_under_the_picture(tmp_path: Path, rendered: list[str]) -
     made = page.build(collect.collect(tmp_path))
     gallery.write(tmp_path / "docs", made.comparisons)
     words = shlex.join(demo.command("cornell", 4, 50))
-    assert f"\n    {words}\n" in (tmp_path / "docs" / "gallery.md").read_text()
+    text = (tmp_path / "docs" / "gallery.md").read_text()
+    assert f"\n    {words}\n" in text
+    without = next(line for line in text.splitlines() if line.startswith("No picture yet: "))
+    assert "Open plane" in without
+    assert "Cornell" not in without
     assert (tmp_path / "docs" / "images" / "gallery" / "cornell.jpg").stat().st_size > 0
     assert "resolution_percentage = 50" in words
     assert collect.collect(tmp_path).results[0].reduced
