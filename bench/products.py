@@ -237,9 +237,9 @@ def cycles(tag: str, host: str, name: str) -> list[Product]:
 
 def packages(python: str) -> list[Product]:
     cached = (
-        "path tracing with PhotonGI's caustic cache as its manual and add-on have it: 100 000 photons of at most 20 "
-        "million, depth 12, renewed every 8 samples, radius × 0.96 each time down to 3 mm; the first radius, 2 cm, is "
-        f"small for these scenes in its favour; {EQUAL}"
+        "path tracing with PhotonGI's caustic cache as its manual and add-on have it: 100 000 photons, depth 12, "
+        "renewed every 8 samples, radius × 0.96 each time to 3 mm; in its favour at most 1 million traced (not 20), "
+        f"first radius 2 cm (not 7.5); {EQUAL}"
     )
     bidir = "bidirectional; paths to 16, light paths to 12 bounces, Russian roulette off (it brightens by a tenth)"
     sampled = (

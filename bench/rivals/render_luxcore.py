@@ -46,7 +46,7 @@ EQUAL = {
 }
 CACHE = {
     "path.photongi.sampler.type": "RANDOM",
-    "path.photongi.photon.maxcount": 20_000_000,
+    "path.photongi.photon.maxcount": 1_000_000,
     "path.photongi.photon.maxdepth": 12,
     "path.photongi.photon.time.start": 0.0,
     "path.photongi.photon.time.end": -1.0,
@@ -59,6 +59,8 @@ CACHE = {
     "path.photongi.caustic.updatespp.radiusreduction": 0.96,
     "path.photongi.caustic.updatespp.minradius": 0.003,
 }
+"""The add-on's values but for two, in its favour: it traces up to 20 million photons, which took longer than whole runs
+of ten seconds, and starts at 7.5 cm, which blurs caustics of bodies of this size."""
 BIDIR = {
     "renderengine.type": "BIDIRCPU",
     "path.maxdepth": 16,
