@@ -46,7 +46,7 @@ def towels(metal) -> None:
 
 def vanity(metal) -> None:
     """Marble counter over a teak cabinet, basin, tap, soap and a plant."""
-    marble = surfaces.travertine("counter stone", 0.85)
+    marble = surfaces.travertine("counter stone", 0.45)
     c.box("counter", (0.95, 0.27, 0.02), marble, 0.005, location=(0, -0.27, COUNTER - 0.02))
     c.box("cabinet", (0.90, 0.25, 0.30), surfaces.teak(), 0.004, location=(0, -0.25, 0.535))
     ceramic = c.material("ceramic", "BsdfPrincipled", Base_Color=(0.80, 0.79, 0.77), Roughness=0.12)
@@ -67,11 +67,11 @@ def shelf_and_flacons(metal) -> None:
     brass = c.material("brass", "BsdfPrincipled", Base_Color=(0.82, 0.60, 0.27), Metallic=1.0, Roughness=0.12)
     clear, top = b.glass("clear glass"), SHELF + 0.0042
     b.shelf(-0.10, -0.012, SHELF, 0.44, b.glass("shelf glass", (0.90, 0.975, 0.955)), metal)
-    b.flacon("blue flacon", -0.44, -0.10, top, 0.036, 0.165, b.glass("blue glass", (0.74, 0.88, 0.97)), metal)
-    b.square_bottle(-0.325, -0.105, top, b.glass("amber block", (0.98, 0.80, 0.48)), brass, 0.35)
+    b.flacon("blue flacon", -0.44, -0.10, top, 0.036, 0.165, b.glass("blue glass", (0.86, 0.945, 0.985)), metal)
+    b.square_bottle(-0.325, -0.105, top, b.glass("amber block", (0.99, 0.86, 0.60)), brass, 0.35)
     b.tumbler(-0.205, -0.095, top, clear)
     b.jar(-0.075, -0.10, top, clear, metal)
-    b.flacon("rose flacon", 0.055, -0.095, top, 0.028, 0.125, b.glass("rose glass", (0.98, 0.80, 0.80)), brass)
+    b.flacon("rose flacon", 0.055, -0.095, top, 0.028, 0.125, b.glass("rose glass", (0.99, 0.89, 0.88)), brass)
     b.tumbler(-0.20, -0.33, COUNTER + 0.0002, b.glass("green glass", (0.86, 0.97, 0.91)), 0.095)
 
 
@@ -85,14 +85,14 @@ def build() -> None:
     c.box("mirror", (0.60, 0.006, 0.46), mirror, 0.003, location=(0, -0.0065, 1.43))
     shelf_and_flacons(metal)
     for name, x in (("left", -0.50), ("right", 0.36)):
-        b.globe_lamp(f"lamp {name}", x, -0.012, 1.43, 2.4, metal)
+        b.globe_lamp(f"lamp {name}", x, -0.012, 1.43, 2.2, metal)
     spot = bpy.data.lights.new("halogen", "SPOT")
-    spot.energy, spot.shadow_soft_size, spot.color = 75.0, 0.012, (1.0, 0.86, 0.68)
+    spot.energy, spot.shadow_soft_size, spot.color = 190.0, 0.012, (1.0, 0.86, 0.68)
     spot.spot_size, spot.spot_blend = math.radians(52), 0.5
     c.aim(c.add(spot, "halogen", (0.22, -0.66, 2.40)), (-0.12, -0.10, 1.0))
     c.world((0, 0, 0))
-    c.camera((0.20, -1.18, 1.36), (-0.07, 0.0, 1.085), 37)
-    scene.view_settings.exposure = 1.05
+    c.camera((0.14, -1.16, 1.38), (-0.11, 0.0, 1.045), 43)
+    scene.view_settings.exposure = 0.6
     c.save(c.output_path(os.path.join(HERE, "bathroom_mirror.blend")))
 
 
