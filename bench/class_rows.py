@@ -29,7 +29,7 @@ COLUMNS = {
 }
 NOTE = (
     "Equal CPU seconds, two seeds. Error: the scatter of the seeds over the whole picture's brightness; it sees no "
-    "bias. Energy sees it: the class's mean over that of path tracing with sixteen times the samples, whose noise is "
+    "bias. Energy sees it: the class's mean over that of path tracing with eight times the samples, whose noise is "
     "in it too. Photons' share: from the film of the first seed, which keeps what they bring apart."
 )
 

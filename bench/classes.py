@@ -32,7 +32,7 @@ DEPOSITS = {
 }
 FEW = ("photons=15000", "photon_radius=0.7", "indirect_caustics=photons", "blend_caustic_hits=false", SAME)
 """So few photons, gathered from so near, that a picture shows them one by one."""
-LONG, PARTS = 16, 2
+LONG, PARTS = 8, 2
 
 
 @dataclass
@@ -57,7 +57,7 @@ class Scene:
 
 def add_arguments(commands) -> None:
     parser = commands.add_parser("classes", help="pictures split into the path classes (thesis Fig. 5.1, 5.3, 5.5)")
-    parser.add_argument("--seconds", type=float, default=0.0, help="CPU seconds of a run (2, or 20 with --full)")
+    parser.add_argument("--seconds", type=float, default=0.0, help="CPU seconds of a run (4, or 20 with --full)")
     parser.add_argument("--width", type=int, default=0, help="of the pictures (384, or the files' own with --full)")
 
 
@@ -135,7 +135,7 @@ def add_deposits(found: Scene, records, options, engine, base: Job) -> None:
 def run(options, found) -> int:
     engine = runs.engine_of(found)
     records = common.records_of(options, "classes")
-    options.seconds = options.seconds or (20.0 if options.full else 2.0)
+    options.seconds = options.seconds or (20.0 if options.full else 4.0)
     options.width = options.width or (0 if options.full else 384)
     names = ("cornell", "metallic_ring", "open_plane") if options.full else ("cornell", "metallic_ring")
     chosen = common.chosen_scenes(options, names)
