@@ -87,7 +87,7 @@ def _pair_part(one: Comparison, folder: Path) -> str:
 
 
 def write(docs: Path, comparisons: list[Comparison]) -> str:
-    """DOCS/gallery.md and DOCS/images/gallery/*.jpg; says what was written. Pictures that nothing names any more go."""
+    """DOCS/gallery.md and DOCS/images/gallery/*.jpg; says what was written. Other pictures there stay."""
     folder = docs / "images" / "gallery"
     what = captions(ROOT / "scenes" / "README.md")
     parts = [
@@ -109,9 +109,5 @@ def write(docs: Path, comparisons: list[Comparison]) -> str:
             " reference's, CPU the seconds of all cores. A dash: not measured.\n"
         )
     parts += [_pair_part(c, folder) for c in pairs]
-    text = "\n".join(parts)
-    for old in folder.glob("*.jpg"):
-        if f"images/gallery/{old.name}" not in text:
-            old.unlink()
-    files.write_bytes(docs / "gallery.md", text.encode())
+    files.write_bytes(docs / "gallery.md", "\n".join(parts).encode())
     return f"{docs / 'gallery.md'}: {len(parts) - 1 - bool(pairs)} pictures"

@@ -154,18 +154,19 @@ def test_a_folder_that_is_a_file_is_told(cache: Path, tmp_path: Path) -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_the_gallery_has_figures_and_no_stale_pictures(cache: Path, tmp_path: Path) -> None:
+def test_the_gallery_has_figures_and_leaves_other_pictures(cache: Path, tmp_path: Path) -> None:
     docs = tmp_path / "docs"
-    files.write_bytes(docs / "images" / "gallery" / "old.jpg", b"")
+    files.write_bytes(docs / "images" / "gallery" / "other.jpg", b"")
     gallery.write(docs, page.build(collect.collect(cache)).comparisons)
     text = (docs / "gallery.md").read_text()
     names = sorted(path.name for path in (docs / "images" / "gallery").iterdir())
     assert names == [
         "cornell-peers-192x144.jpg",
+        "other.jpg",
         "wine-glass-direct-light-peers-192x144.jpg",
         "wine-glass-peers-192x144.jpg",
     ]
-    assert all(f"images/gallery/{name}" in text for name in names)
+    assert all(f"images/gallery/{name}" in text for name in names if name != "other.jpg")
     assert "| Cycles 3.4.1 | 0.457 | 0.913 | 30.5 s | 24 samples |" in text
     assert "| **Cardioid** | 0.0123 | 0.999 | 30.1 s | 16 samples |" in text
 
