@@ -107,7 +107,8 @@ std::vector<Float3> given_normals(const MeshDesc& mesh) {
     for (const scene::AttributeDesc& a : mesh.attributes) {
         if (a.name != k_vertex_normal || a.domain != scene::Domain::point || a.channels != 3) continue;
         std::vector<Float3> normals(a.data.size() / 3);
-        for (std::size_t v = 0; v < normals.size(); ++v) normals[v] = {a.data[3 * v], a.data[3 * v + 1], a.data[3 * v + 2]};
+        for (std::size_t v = 0; v < normals.size(); ++v)
+            normals[v] = {a.data[3 * v], a.data[3 * v + 1], a.data[3 * v + 2]};
         return normals;
     }
     return vertex_normals(mesh);
