@@ -92,7 +92,7 @@ def write(docs: Path, comparisons: list[Comparison]) -> str:
     what = captions(ROOT / "scenes" / "README.md")
     parts = [
         "# Gallery\n\nThe scenes of `scenes/`, each rendered by Cardioid with the command under it, in the checkout,"
-        " the add-on being installed (`./scripts/demo` does that). No compositing, no retouching. `./scripts/report"
+        " the add-on being installed (`./scripts/demo` does that). No retouching. `./scripts/report"
         " --demo --gallery docs` renders every scene that has no picture yet, and writes this page."
         " `scenes/README.md` says how the scenes are built.\n"
     ]
