@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors of a picture against a reference, on linear pixels. relmse is defined as in shared/peers/metrics.py."""
+"""Errors of a picture against a reference, on linear pixels."""
 
 from __future__ import annotations
 
