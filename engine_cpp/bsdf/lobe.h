@@ -68,6 +68,8 @@ struct alignas(64) Lobe {
     Distribution distribution = Distribution::ggx;
     /// ggx_*: masking and shadowing as independent factors (Blender before 4.0).
     bool separable_masking = false;
+    /// ggx_* that preserve energy: Blender's walk between facets (before 4.0), whose energy follows Filter Glossy.
+    bool walks_facets = false;
     /// ggx_* with Fresnel dielectric, schlick, f82 or conductor: `roughness` is the thickness of a film in nm (0: none in the
     /// lane), film_ior its index relative to wo's side.
     bool thin_film = false;
@@ -92,10 +94,14 @@ constexpr bool is_microfacet(LobeKind kind) {
 /// Bends what it sends through by `eta`.
 constexpr bool refracts(LobeKind kind) { return kind == LobeKind::ggx_refraction || kind == LobeKind::ggx_glass; }
 
+/// Of the Hair BSDF.
+constexpr bool is_plain_hair(LobeKind kind) {
+    return kind == LobeKind::hair_reflection || kind == LobeKind::hair_transmission;
+}
+
 /// Scatters over the whole sphere about a strand; the sides of the surface mean nothing to it.
 constexpr bool is_hair(LobeKind kind) {
-    return kind == LobeKind::hair_reflection || kind == LobeKind::hair_transmission || kind == LobeKind::hair_chiang ||
-           kind == LobeKind::hair_huang;
+    return is_plain_hair(kind) || kind == LobeKind::hair_chiang || kind == LobeKind::hair_huang;
 }
 
 /// Diffuse-like: counts as a diffuse bounce, or as transmission where it sends light through.

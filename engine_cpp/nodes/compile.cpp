@@ -56,13 +56,6 @@ bool constant_sum(const Program& p, Op op, Float3& sum) {
     return true;
 }
 
-/// Some lobe has a normal that the graph made: normals that are linked all go through bend_normal.
-bool makes_normals(const Program& p) {
-    return std::any_of(p.code.begin(), p.code.end(), [&](const Instruction& in) {
-        return in.op == Op::bend_normal && (p.args[in.args] & operand_chunk) == 0;
-    });
-}
-
 /// Least roughness of the glossy lobes that is sure before shading.
 float least_alpha(const Program& p) {
     float least = 1e30f;
@@ -108,7 +101,6 @@ ProgramInfo describe(const CompiledGraph& g) {
     info.transparency_needs_light_path = uses(transparency, Op::ray_value);
     info.needs_light_path = uses(surface, Op::ray_value);
     info.has_bump = uses(surface, Op::surface_step);
-    info.own_normals = makes_normals(surface);
     info.sets_normal = uses(surface, Op::set_normal);
     info.needs_triangle_frame = reads_triangle(surface);
     info.needs_instance = uses(surface, Op::instance_value) || uses(surface, Op::named_value) ||
@@ -141,6 +133,8 @@ CompiledGraph compile(const scene::GraphDesc& graph, const CompileContext& conte
         return compile(plain_graph(context), context, warnings);
     }
     out.info = describe(out);
+    out.info.own_normals = compiler.own_normals() || out.info.sets_normal;
+    out.info.ggx_bump_shadow = compiler.own_normals() && compiler.normal_rules() >= 3;
     return out;
 }
 

@@ -17,6 +17,17 @@ const char* kind_name(GraphKind kind) {
     }
 }
 
+/// The version of nodes that make normals tells what Blender does with them.
+int normal_rules_of(const scene::NodeDesc& node) {
+    for (const char* type : {"ShaderNodeBump", "ShaderNodeNormalMap", "ShaderNodeDisplacement"}) {
+        if (node.type != type) continue;
+        const auto at = node.params.find("version");
+        const double* version = at == node.params.end() ? nullptr : std::get_if<double>(&at->second);
+        return version == nullptr ? 1 : static_cast<int>(*version);
+    }
+    return 1;
+}
+
 }  // namespace
 
 GraphCompiler::GraphCompiler(const scene::GraphDesc& graph, const CompileContext& context, Warnings& warnings)
@@ -27,7 +38,10 @@ GraphCompiler::GraphCompiler(const scene::GraphDesc& graph, const CompileContext
       types_(graph.nodes.size()),
       weight_(graph.nodes.size()),
       reached_(graph.nodes.size(), false) {
-    for (std::size_t k = 0; k < graph_.nodes.size(); ++k) types_[k] = find_node_type(graph_.nodes[k].type);
+    for (std::size_t k = 0; k < graph_.nodes.size(); ++k) {
+        types_[k] = find_node_type(graph_.nodes[k].type);
+        normal_rules_ = std::max(normal_rules_, normal_rules_of(graph_.nodes[k]));
+    }
     normal_ = builder_.chunk3(ChunkRow::normal);
     cut_bad_links();
     cut_loops();

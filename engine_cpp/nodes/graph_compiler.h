@@ -39,6 +39,11 @@ public:
     Ref3 normal() const { return normal_; }
     /// The volume output is being walked: surfaces are left out, emission is that of the medium.
     bool in_volume() const { return in_volume_; }
+    /// Lobes may have normals that the graph made.
+    bool own_normals() const { return own_normals_; }
+    /// What Blender does with such normals: 1 before 3.6 (reflections of all lobes stay above the surface), 2 later (of glossy
+    /// ones), 3 since 4.5 (and bumps of diffuse ones are shadowed by a GGX term).
+    int normal_rules() const { return normal_rules_; }
     float step() const { return steps_[static_cast<std::size_t>(step_)]; }
     /// A scattering part of the medium; parts of one kind and parameter are summed.
     void add_phase(PhaseKind kind, Ref3 scatter, Ref3 parameter, int node);
@@ -88,6 +93,8 @@ private:
     std::set<std::pair<int, std::string>> used_;  ///< outputs that something is linked to
     Ref3 normal_;
     int bump_depth_ = 0;
+    int normal_rules_ = 1;
+    bool own_normals_ = false;
     int lobes_ = 0;
     struct Phase {
         PhaseKind kind;

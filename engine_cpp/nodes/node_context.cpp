@@ -224,7 +224,7 @@ Ref NodeContext::ggx_lobe(const GgxLobe& l) {
         static_cast<std::uint32_t>(l.kind) | static_cast<std::uint32_t>(l.fresnel) << lobe_fresnel_shift |
         static_cast<std::uint32_t>(l.distribution) << lobe_distribution_shift |
         (l.preserve_energy ? lobe_preserve_energy : 0u) | (l.separable_masking ? lobe_separable : 0u) |
-        (b.is(l.film_thickness, 0) ? 0u : lobe_thin_film);
+        (l.walks_facets ? lobe_walks_facets : 0u) | (b.is(l.film_thickness, 0) ? 0u : lobe_thin_film);
     return b.emit(
         Op::lobe_ggx,
         {l.weight.x,       l.weight.y,       l.weight.z,       l.normal.x,       l.normal.y, l.normal.z, l.tangent.x,
@@ -270,11 +270,14 @@ Ref NodeContext::sheen_lobe(Ref3 weight, Ref3 n, Ref roughness, Ref3 layer_weigh
 
 Ref3 NodeContext::closure_normal(const char* id, bool glossy) {
     Ref3 n = normal();
-    if (linked(id)) {
+    const bool own = linked(id);
+    if (own) {
         const Ref3 v = vector(id);
         n = b.emit3(Op::normalize_or, {v.x, v.y, v.z, n.x, n.y, n.z});
+        compiler_.own_normals_ = true;
     }
-    return glossy || linked(id) ? b.emit3(Op::bend_normal, {n.x, n.y, n.z}) : n;
+    const bool bends = glossy || (own && compiler_.normal_rules() < 2);
+    return bends ? b.emit3(Op::bend_normal, {n.x, n.y, n.z}) : n;
 }
 
 }  // namespace cardioid::nodes

@@ -14,6 +14,7 @@ struct GgxLobe {
     bsdf::Distribution distribution = bsdf::Distribution::ggx;
     bool preserve_energy = false;
     bool separable_masking = false;
+    bool walks_facets = false;
     Ref3 weight, normal, tangent;
     Ref alpha_x, alpha_y, eta;
     Ref3 f0, f90, tint, layer_weight;

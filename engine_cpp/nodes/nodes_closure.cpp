@@ -85,7 +85,9 @@ void set_distribution(NodeContext& c, GgxLobe& l, double first_version) {
     const std::string name = c.text("distribution", "GGX");
     if (name == "BECKMANN") l.distribution = bsdf::Distribution::beckmann;
     if (name == "ASHIKHMIN_SHIRLEY") l.distribution = bsdf::Distribution::ashikhmin_shirley;
-    l.separable_masking = c.property("version", first_version) < 2 && name != "MULTI_GGX";
+    const bool old = c.property("version", first_version) < 2;
+    l.walks_facets = old && name == "MULTI_GGX";
+    l.separable_masking = old && !l.walks_facets;
 }
 
 /// Blender's roughness, squared; 0 for the old "sharp" distribution.

@@ -133,7 +133,7 @@ void principled_hair(NodeContext& c, Ref weight) {
 
 constexpr NodeType k_nodes[] = {
     {"ShaderNodeBsdfHair", nullptr, hair, Support::approximated,
-     "lamps light what lies behind the shading normal too; Cycles leaves that to indirect light"},
+     "lamps light what Transmission sends to either side of the shading normal; Cycles evaluates the far side alone"},
     {"ShaderNodeBsdfHairPrincipled", nullptr, principled_hair, Support::approximated,
      "Coat is a little darker; the model Huang is rendered by Chiang's, with its factors of R, TT and TRT and round "
      "sections"},

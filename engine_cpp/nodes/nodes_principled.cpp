@@ -74,6 +74,7 @@ void v1_specular(NodeContext& c, const V1& p, Ref weight) {
     l.weight = c.b.broadcast(c.b.multiply(weight, c.b.one_minus(glass)));
     l.normal = p.normal;
     l.separable_masking = !p.multi_ggx;
+    l.walks_facets = p.multi_ggx;
     const Ref reflectance = c.b.multiply(specular, c.b.constant(0.08f));
     const Ref root = c.b.emit(Op::square_root, {reflectance});
     l.eta = c.b.subtract(c.b.divide(c.b.constant(2), c.b.one_minus(root)), one);
@@ -98,6 +99,7 @@ void v1_transmission(NodeContext& c, const V1& p, Ref weight) {
     GgxLobe l = c.ggx();
     l.normal = p.normal;
     l.separable_masking = !p.multi_ggx;
+    l.walks_facets = p.multi_ggx;
     l.eta = sided_eta(c, c.number("IOR", 1.45f));
     l.alpha_x = l.alpha_y = c.b.multiply(p.roughness, p.roughness);
     const Ref3 front = c.b.mix(c.b.constant(Float3{1, 1, 1}), p.base, p.specular_tint);

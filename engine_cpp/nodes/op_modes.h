@@ -16,6 +16,7 @@ enum LobeBits : std::uint32_t {
     lobe_layer = 1u << 14,  ///< the result is read
     lobe_separable = 1u << 15,
     lobe_thin_film = 1u << 16,
+    lobe_walks_facets = 1u << 19,
     lobe_v1_exit = 1u << 17,      ///< subsurface of Principled version 1
     lobe_skin_radius = 1u << 18,  ///< subsurface whose radius is that of Random Walk (Skin)
 };

@@ -38,6 +38,7 @@ Lobe& begin_lobe(const Machine& m, const Instruction& in, Lobe& spare) {
     lobe.preserve_energy = (in.imm & nodes::lobe_preserve_energy) != 0;
     lobe.distribution = static_cast<Distribution>(in.imm >> nodes::lobe_distribution_shift & 0x7);
     lobe.separable_masking = (in.imm & nodes::lobe_separable) != 0;
+    lobe.walks_facets = (in.imm & nodes::lobe_walks_facets) != 0;
     lobe.thin_film = (in.imm & nodes::lobe_thin_film) != 0;
     copy_rows(m, in, 0, lobe.weight);
     copy_rows(m, in, 3, lobe.normal);

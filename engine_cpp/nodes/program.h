@@ -38,6 +38,7 @@ struct ProgramInfo {
     bool has_lobes = false;
     bool has_bump = false;
     bool own_normals = false;       ///< lobes may have other normals than the surface's smooth one
+    bool ggx_bump_shadow = false;   ///< diffuse lobes with such normals are darkened as Blender 4.5 and later do
     bool sets_normal = false;       ///< displacement bumps the surface itself (SurfaceOutput::normal)
     bool needs_light_path = false;  ///< depends on the kind of ray
     bool has_holdout = false;

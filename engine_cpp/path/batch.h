@@ -72,6 +72,7 @@ struct alignas(64) VertexChunk {
     VertexChunk* next = nullptr;
     int n = 0, lobes = 0;
     bool own_normals = false;            ///< lobes may have normals of their own (bump, normal maps)
+    bool ggx_bump_shadow = false;        ///< ProgramInfo's
     bool all_sides = false;              ///< light from below the smooth normal's horizon counts: transmission, bump
     bool dark_glass_reflection = false;  ///< glass reflects nothing to paths that come from a diffuse bounce
     bool narrows = false;                ///< `narrowing` is there

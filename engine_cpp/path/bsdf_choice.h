@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bsdf/kernels.h"
-#include "path/tracer.h"
+#include "path/bump_shadow.h"
 
 namespace cardioid::CD_ISA_NS {
 

@@ -17,6 +17,14 @@ struct BsdfEval {
     Float pdf_d = 0.0f, pdf_s = 0.0f;
 };
 
+/// Where Cycles evaluates Hair BSDF's reflection: above the shading normal's horizon, on wo's side of the strand. Rays find
+/// what is left out, with the weight that they have beside lamps.
+Mask hair_reflects_lamps(const bsdf::Lobe& lobe, int i, Vec3 wo, Vec3 wi) {
+    const Vec3 along = normalize(load3(lobe.tangent, i));
+    const Mask near_side = dot(wo, wi) >= dot(wo, along) * dot(wi, along);
+    return near_side & (dot(load3(lobe.normal, i), wi) >= Float(0.0f));
+}
+
 /// `visibility`: bits of the light, to leave out the lobes that it must not light; null when every lamp lights all.
 BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3 ng, const scene::Settings& settings,
                    const Int* visibility) {
@@ -24,6 +32,10 @@ BsdfEval eval_bsdf(const path::VertexChunk& chunk, int i, Vec3 wo, Vec3 wi, Vec3
     BsdfEval sum;
     for (int k = 0; k < chunk.lobes; ++k) {
         LobeEval e = eval_lobe(chunk.lobe[k], i, wo, wi, ng);
+        if (chunk.lobe[k].kind == bsdf::LobeKind::hair_reflection) {
+            const Mask seen = hair_reflects_lamps(chunk.lobe[k], i, wo, wi);
+            e = {select(seen, e.f_cos, Spectrum(0.0f)), select(seen, e.pdf, Float(0.0f))};
+        }
         e.f_cos = carried_value(chunk, chunk.lobe[k], i, wo, wi, ng, e.f_cos, mask_of(false), Transport::radiance,
                                 settings.physical_refraction);
         if (visibility) {

@@ -102,6 +102,7 @@ void PhotonWalk::shade(int material, const std::int32_t* list, int n) {
     chunk->lobe = lobe;
     chunk->pick = pick;
     chunk->own_normals = m.info.own_normals;
+    chunk->ggx_bump_shadow = m.info.ggx_bump_shadow;
     chunk->boundary = is_boundary(m);
     surface_medium = m.volume ? material : -1;
     // Camera paths take subsurface scattering after a diffuse bounce for diffuse; photons always do.

@@ -24,11 +24,16 @@ void drop_caustic_lobes(const scene::Settings& settings, bsdf::Lobe& lobe, int i
         scale_rows(lobe.tint_transmission, i, after_diffuse);
 }
 
-/// Filter Glossy: after an unlikely bounce, near-mirrors are roughened.
-void blur_glossy(bsdf::Lobe& lobe, int i, Float least_alpha) {
+/// Filter Glossy: after an unlikely bounce, near-mirrors are roughened. What makes up for light lost between facets stays that
+/// of the smoother lobe, as in Cycles.
+void blur_glossy(bsdf::Lobe& lobe, int i, Vec3 wo, Float least_alpha) {
     if (!bsdf::is_microfacet(lobe.kind)) return;
+    const bool compensated = lobe.preserve_energy && !lobe.walks_facets && lobe.kind != bsdf::LobeKind::ggx_refraction;
+    const Spectrum before = compensated ? energy_compensation(lobe, i, wo) : Spectrum(1.0f);
     store(lobe.alpha_x + i, max(load(lobe.alpha_x + i), least_alpha));
     store(lobe.alpha_y + i, max(load(lobe.alpha_y + i), least_alpha));
+    if (compensated)
+        store_rgb(lobe.weight, i, load_rgb(lobe.weight, i) * divide(before, energy_compensation(lobe, i, wo)));
 }
 
 }  // namespace
@@ -88,6 +93,7 @@ void Tracer::shade(int material, const std::int32_t* list, int n) {
     chunk->n = n;
     chunk->lobes = out.lobes;
     chunk->own_normals = chunk->all_sides = m.info.own_normals;
+    chunk->ggx_bump_shadow = m.info.ggx_bump_shadow;
     for (int k = 0; k < out.lobes; ++k) chunk->all_sides |= bsdf::sends_light_through(out.lobe[k].kind);
     if (m.info.has_subsurface) add_twins(*chunk, list, false);
     chunk->boundary = is_boundary(m);
@@ -142,12 +148,13 @@ void Tracer::adjust_lobes(path::VertexChunk& chunk, int i, Int flags, Float min_
     const bool drop_caustics = !settings.reflective_caustics || !settings.refractive_caustics;
     if (!drop_caustics && settings.filter_glossy <= 0) return;
     const Mask after_diffuse = (flags & Int(nodes::ray_diffuse)) != Int(0);
+    const Vec3 wo = cardioid::CD_ISA_NS::load3(scratch.shading.wo, i);
     for (int k = 0; k < chunk.lobes; ++k) {
         bsdf::Lobe& lobe = chunk.lobe[k];
         if (drop_caustics) drop_caustic_lobes(settings, lobe, i, after_diffuse);
         if (settings.filter_glossy <= 0) continue;
         const Float blur_pdf = min_pdf * (1.0f / settings.filter_glossy);
-        if (any(blur_pdf < Float(1.0f))) blur_glossy(lobe, i, 0.5f * safe_sqrt(1.0f - blur_pdf));
+        if (any(blur_pdf < Float(1.0f))) blur_glossy(lobe, i, wo, 0.5f * safe_sqrt(1.0f - blur_pdf));
     }
 }
 

@@ -207,18 +207,6 @@ inline void log_rays(path::RayLog& log, const RayLanes& ray, Mask active, path::
     log.n += W;
 }
 
-/// Cycles' softening of the border where light is under the smooth surface but over the bumped one (Estevez et al. 2019);
-/// for diffuse lobes with a normal of their own.
-inline Float bump_shadow(const path::VertexChunk& chunk, const bsdf::Lobe& lobe, int i, Vec3 wi) {
-    Vec3 smooth = load3(chunk.normal, i);
-    const Vec3 bumped = load3(lobe.normal, i);
-    const Float cos_light = dot(bumped, wi);
-    smooth = select(cos_light < Float(0.0f), -smooth, smooth);
-    const Float g = dot(smooth, wi) / max(abs(cos_light) * abs(dot(smooth, bumped)), 1e-20f);
-    const Float soft = select(g < Float(0.0f), Float(0.0f), fma(g * g, 1.0f - g, g));
-    return select(g >= Float(1.0f), Float(1.0f), soft);
-}
-
 /// Visibility bit that decides whether a lamp lights a lobe in direction wi.
 inline Int lobe_visibility(bsdf::LobeKind kind, Vec3 wi, Vec3 ng) {
     const Int reflected(bsdf::is_diffuse_kind(kind) ? scene::visible_diffuse : scene::visible_glossy);

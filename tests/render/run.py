@@ -33,8 +33,6 @@ REFERENCE_SEED = 1000
 
 KNOWN_DIFFERENCES = {
     ("3.4", "glossy_multi_ggx"): "3.4 walks between facets at random; later versions and Cardioid compensate by albedo",
-    ("bpy45", "bump"): "since 4.2 Cycles softens the shadow of bumps by a GGX term, Cardioid as 3.4",
-    ("bpy50", "bump"): "since 4.2 Cycles softens the shadow of bumps by a GGX term, Cardioid as 3.4",
 }
 """Cases whose blocks differ for a reason that the docs tell. Their means must still pass; they count as skipped, and
 one whose blocks agree fails, so that the list cannot outlive its reasons."""

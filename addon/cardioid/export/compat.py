@@ -22,6 +22,7 @@ SINCE: dict[str, tuple[int, int]] = {
     "ies_3": (5, 0),                 # … and keep their last value, as before 4.1
     "vector_transform_2": (4, 4),    # normals are transformed by the inverse transpose
     "bump_2": (3, 6),                # normals of Bump and of displacement may point below the surface
+    "bump_3": (4, 5),                # bumps of diffuse surfaces are shadowed by a GGX term
     "normal_map_2": (4, 0),          # strength scales the map in tangent space
     "displacement_2": (4, 5),        # displacement that only bumps is measured over a tenth of a pixel
     "tables_2": (4, 5),              # ramps and curves have an entry more (seen in 4.5, not in 3.4)
@@ -41,10 +42,10 @@ NODE_SINCE = {
     "ShaderNodeBsdfRefraction": "microfacet_2",
     "ShaderNodeBsdfGlass": "principled_2",
     "ShaderNodeBsdfDiffuse": "diffuse_2",
-    "ShaderNodeBump": "bump_2",
+    "ShaderNodeBump": ("bump_2", "bump_3"),
     "ShaderNodeTexIES": ("ies_2", "ies_3"),
     "ShaderNodeVectorTransform": "vector_transform_2",
-    "ShaderNodeNormalMap": "normal_map_2",
+    "ShaderNodeNormalMap": ("normal_map_2", "bump_3"),
     "ShaderNodeDisplacement": ("bump_2", "displacement_2"),
     "ShaderNodeVectorDisplacement": ("bump_2", "displacement_2"),
     "ShaderNodeTexVoronoi": "voronoi_2",

@@ -20,9 +20,9 @@ def clamps(scene):
     scene.cycles.sample_clamp_direct, scene.cycles.sample_clamp_indirect = 0.9, 0.25
 
 
-@case(samples=64)
+@case(samples=64, wheels=True)
 def blur_glossy(scene):
-    """Filter Glossy with caustics on: reflections behind diffuse bounces are blurred. 4.5 and later differ by 1 %."""
+    """Filter Glossy with caustics on: reflections behind diffuse bounces are blurred."""
     kit.ball_stage(_sheen_ball(0.02))
     scene.cycles.caustics_reflective = scene.cycles.caustics_refractive = True
     scene.cycles.blur_glossy = 1.0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Displacement by Blender's three methods: bump alone, moved vertices alone, both.
+// Displacement by Blender's three methods: bump alone, moved vertices alone, both; and what versions do with bumped normals.
 #include "nodes/compile.h"
 
 #include "nodes/chunks.h"
@@ -65,11 +65,11 @@ std::unique_ptr<test::Machine> bumped(double version) {
     return m;
 }
 
-/// Least cosine, against the geometric normal, of mirrored views.
-float lowest_reflection(const test::Machine& m) {
+/// Least cosine, against the geometric normal, of views mirrored about `normal`.
+float lowest_reflection(const test::Machine& m, const Row* normal) {
     float lowest = 1;
     for (int i = 0; i < k_chunk; ++i) {
-        const Float3 n{m.out.normal[0][i], m.out.normal[1][i], m.out.normal[2][i]};
+        const Float3 n{normal[0][i], normal[1][i], normal[2][i]};
         const Float3 o{m.chunk.wo[0][i], m.chunk.wo[1][i], m.chunk.wo[2][i]};
         lowest = std::min(lowest, 2 * dot(n, o) * n.z - o.z);
     }
@@ -77,9 +77,40 @@ float lowest_reflection(const test::Machine& m) {
 }
 
 TEST(Displacement, AsBumpKeepsReflectionsAboveTheSurfaceBefore36) {
-    EXPECT_GT(lowest_reflection(*bumped(1)), 0.0f);
-    EXPECT_LT(lowest_reflection(*bumped(2)), -0.3f);
-    EXPECT_LT(lowest_reflection(*bumped(3)), -0.3f);
+    const auto lowest = [](double version) {
+        const auto m = bumped(version);
+        return lowest_reflection(*m, m->out.normal);
+    };
+    EXPECT_GT(lowest(1), 0.0f);
+    EXPECT_LT(lowest(2), -0.3f);
+    EXPECT_LT(lowest(3), -0.3f);
+}
+
+TEST(Bump, DiffuseNormalsStayAboveTheSurfaceBefore36AndAreShadowedByFacetsSince45) {
+    for (const double version : {1.0, 2.0, 3.0}) {
+        test::GraphMaker maker;
+        maker.node("ShaderNodeTexNoise").value("Scale", {3});
+        maker.node("ShaderNodeBump").link("Height", 0, "Fac").value("Distance", {2}).param("version", version);
+        maker.node("ShaderNodeBsdfDiffuse").link("Normal", 1, "Normal");
+        maker.node("ShaderNodeBsdfGlossy").link("Normal", 1, "Normal");
+        maker.node("ShaderNodeAddShader").link("Shader", 2, "BSDF").link("Shader_001", 3, "BSDF");
+        nodes::CompileContext context;
+        nodes::Warnings warnings;
+        const auto g = nodes::compile(maker.surface("Shader"), context, warnings);
+        EXPECT_TRUE(g.info.own_normals);
+        EXPECT_EQ(g.info.ggx_bump_shadow, version == 3);
+        const auto m = std::make_unique<test::Machine>();
+        isa_w1::run_program(g.of(Purpose::surface), m->chunk, m->out, m->scratch);
+        ASSERT_EQ(m->out.lobes, 2);
+        for (int k = 0; k < 2; ++k) {
+            const bool diffuse = m->lobes[k].kind == bsdf::LobeKind::diffuse;
+            const float lowest = lowest_reflection(*m, m->lobes[k].normal);
+            if (diffuse && version >= 2)
+                EXPECT_LT(lowest, -0.3f);
+            else
+                EXPECT_GT(lowest, 0.0f);
+        }
+    }
 }
 
 TEST(Displacement, IsTheHeightAlongTheNormal) {
