@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import jinja2
+from markupsafe import Markup, escape
 from PIL import Image
 
 from . import encode, view
@@ -35,6 +37,11 @@ class Page:
         return len(self.html.encode())
 
 
+def _with_code(text: str) -> Markup:
+    """Escaped, with what stands between backticks set as code."""
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+
+
 def _environment() -> jinja2.Environment:
     """Templates escape whatever comes from results; an unknown name is an error."""
     made = jinja2.Environment(
@@ -47,8 +54,8 @@ def _environment() -> jinja2.Environment:
     made.globals.update(
         table_rows=view.table_rows, numeric=view.numeric, figures=view.figures, first_pair=view.first_pair
     )
-    made.filters.update(slug=view.slug, day=view.day)
-    made.globals["inline"] = lambda name: jinja2.utils.markupsafe.Markup((HERE / "templates" / name).read_text())
+    made.filters.update(slug=view.slug, day=view.day, with_code=_with_code)
+    made.globals["inline"] = lambda name: Markup((HERE / "templates" / name).read_text())
     return made
 
 

@@ -42,11 +42,13 @@ def test_names_with_html_are_escaped(cache: Path) -> None:
     for one in result.pictures:
         one.label, one.settings = f"{one.label} {conftest.HTML}", conftest.HTML
         one.scene = f"{one.scene}{conftest.HTML}"
+    result.tables[0].note = f"`{conftest.HTML}`"
     result.settings, result.missing, result.title = {conftest.HTML: conftest.HTML}, [conftest.HTML], conftest.HTML
     save(result, cache)
     html = page.build(collect.collect(cache)).html
     assert "<img src=x" not in html
     assert "&lt;img src=x" in html
+    assert "<code>&lt;img src=x onerror=&#34;alert(1)&#34;&gt;</code>" in html
 
 
 def test_pictures_lose_quality_before_the_page_is_too_large(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
