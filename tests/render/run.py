@@ -25,6 +25,7 @@ sys.path.insert(0, str(HERE))
 
 import compare  # noqa: E402
 import hosts  # noqa: E402
+
 import report  # noqa: E402
 
 ROUNDS = (8, 24, 64, 192)
