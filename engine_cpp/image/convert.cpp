@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <type_traits>
 
 namespace cardioid::image {
 namespace {
@@ -51,7 +52,7 @@ void spread(const std::byte* texel, int channels, bool ignore_alpha, T out[4]) {
 /// Integers are cut off, not rounded, as Cycles does it.
 std::uint8_t product(std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(unsigned{a} * b / 255); }
 std::uint16_t product(std::uint16_t a, std::uint16_t b) { return static_cast<std::uint16_t>(unsigned{a} * b / 65535); }
-Half product(Half a, Half b) { return {half_from_float(to_float(a) * to_float(b))}; }
+Half product(Half a, Half b) { return {truncated_half(to_float(a) * to_float(b))}; }
 float product(float a, float b) { return a * b; }
 
 template <class T>
@@ -73,34 +74,44 @@ std::size_t copy_row(std::byte* to, const Texture& texture, const Conversion& c,
     return bad;
 }
 
+/// Colours that will be converted: integers go through halves, as in Cycles.
+template <class T>
+float read(T v) {
+    return std::is_integral_v<T> ? float_from_half(half_from_float(to_float(v))) : to_float(v);
+}
+
 template <class T>
 void read_floats(const std::byte* from, const Conversion& c, int width, float* rgba) {
     const int delivered = c.source.delivered();
     for (int x = 0; x < width; ++x, from += sizeof(T) * static_cast<std::size_t>(delivered)) {
         T texel[4];
         spread(from, delivered, c.ignore_alpha, texel);
-        for (int k = 0; k < 4; ++k) rgba[4 * x + k] = to_float(texel[k]);
+        for (int k = 0; k < 4; ++k) rgba[4 * x + k] = read(texel[k]);
     }
 }
 
 bool divides(float alpha) { return !(alpha <= 0 || alpha == 1); }
 
-/// Scene-linear colours; returns the number of texels that are not finite, before or after.
-std::size_t linearise(float* rgba, int width, const Conversion& c) {
+/// Scene-linear colours; returns the number of texels that are not finite, before or after. `halves`: they are kept so.
+std::size_t linearise(float* rgba, int width, const Conversion& c, bool halves) {
+    const bool associated = c.associated || c.multiply;
     std::size_t bad = 0;
     for (int x = 0; x < width; ++x) {
         float* p = rgba + 4 * x;
         if (!std::isfinite(p[0] + p[1] + p[2] + p[3])) {
             std::fill_n(p, 4, 0.0f);
             ++bad;
-        } else if (c.associated && divides(p[3])) {
-            for (int k = 0; k < 3; ++k) p[k] /= p[3];
+            continue;
         }
+        if (c.multiply)
+            for (int k = 0; k < 3; ++k) p[k] = halves ? float_from_half(truncated_half(p[k] * p[3])) : p[k] * p[3];
+        if (associated && divides(p[3]))
+            for (int k = 0; k < 3; ++k) p[k] /= p[3];
     }
     c.space.to_linear(rgba, static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x) {
         float* p = rgba + 4 * x;
-        if (c.associated && divides(p[3]))
+        if (associated && divides(p[3]))
             for (int k = 0; k < 3; ++k) p[k] *= p[3];
         if (std::isfinite(p[0] + p[1] + p[2])) continue;
         std::fill_n(p, 3, 0.0f);
@@ -119,7 +130,7 @@ void write_row(std::byte* to, const Texture& texture, const float* rgba, int wid
         for (int k = 0; k < texture.channels; ++k) {
             const std::size_t at = channel_bytes(texture.storage) * static_cast<std::size_t>(k);
             if (texture.storage == Storage::half) {
-                const std::uint16_t half = half_from_float(texel[k]);
+                const std::uint16_t half = truncated_half(texel[k]);
                 std::memcpy(to + at, &half, sizeof half);
             } else {
                 std::memcpy(to + at, &texel[k], sizeof(float));
@@ -133,7 +144,7 @@ std::size_t fill_row(std::byte* to, const Texture& texture, const Conversion& c,
     if (c.space.transfer != Transfer::convert) return copy_row<T>(to, texture, c, from, width);
     float rgba[4 * k_tile];
     read_floats<T>(from, c, width, rgba);
-    const std::size_t bad = linearise(rgba, width, c);
+    const std::size_t bad = linearise(rgba, width, c, texture.storage == Storage::half);
     write_row(to, texture, rgba, width);
     return bad;
 }

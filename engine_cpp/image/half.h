@@ -23,6 +23,16 @@ inline std::uint16_t half_from_float(float value) {
     return static_cast<std::uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
 }
 
+/// The half that `value` is cut off to; halves that are not normal become 0. What Cycles stores after it has changed a colour
+/// (util/half.h, float_to_half_image).
+inline std::uint16_t truncated_half(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffffu;
+    if (magnitude < 0x38800000u) return static_cast<std::uint16_t>(bits >> 16 & 0x8000u);
+    const std::uint32_t cut = magnitude >= 0x47800000u ? 0x7bffu : (magnitude >> 13) - 0x1c000u;
+    return static_cast<std::uint16_t>((bits >> 16 & 0x8000u) | cut);
+}
+
 inline float float_from_half(std::uint16_t half) {
     // The exponent is moved by a multiplication, which also handles subnormals. Infinities were removed on loading.
     const std::uint32_t magnitude = (half & 0x7fffu) << 13, sign = (half & 0x8000u) << 16;

@@ -55,7 +55,7 @@ Picture::Picture(const scene::ImageDesc& image, std::string label, std::unique_p
     // Cycles forgets to multiply the colours of grey files by their alpha, and then divides by it.
     const bool forgotten = image.source == scene::ImageSource::file && info.channels != 4;
     const bool multiplied = has_alpha_ && !separate && info.straight_alpha && !forgotten;
-    conversion_.multiply = multiplied && info.channels == 4 && conversion_.space.transfer != Transfer::convert;
+    conversion_.multiply = multiplied && info.channels == 4;
     texture_.associate = multiplied && !conversion_.multiply;
     texture_.may_divide = has_alpha_ && !separate;
     texture_.resize(info.width, info.height);

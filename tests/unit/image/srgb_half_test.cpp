@@ -66,5 +66,20 @@ TEST(Half, RoundsLikeTheLibrary) {
     EXPECT_EQ(float_from_half(half_from_float(-1e9f)), -k_half_max);
 }
 
+TEST(Half, TruncationIsTheNextOneTowardZero) {
+    std::mt19937 generator(11);
+    std::uniform_real_distribution<float> exponent(-13.99f, 15.99f);
+    for (int i = 0; i < 100000; ++i) {
+        const float value = std::exp2(exponent(generator)) * (i % 2 == 0 ? 1.0f : -1.0f);
+        const std::uint16_t cut = truncated_half(value);
+        ASSERT_LE(std::abs(float_from_half(cut)), std::abs(value));
+        ASSERT_GT(std::abs(float_from_half(static_cast<std::uint16_t>(cut + 1))), std::abs(value)) << value;
+        ASSERT_EQ(std::signbit(float_from_half(cut)), std::signbit(value));
+    }
+    EXPECT_EQ(truncated_half(6.0e-5f), 0) << "not a normal half";
+    EXPECT_EQ(truncated_half(-6.0e-5f), 0x8000);
+    EXPECT_EQ(float_from_half(truncated_half(1e9f)), k_half_max);
+}
+
 }  // namespace
 }  // namespace cardioid::image
