@@ -207,9 +207,15 @@ sys.exit(command.main(["fake", "--cache", sys.argv[1]]))
 
 
 def started(folder: Path) -> tuple[subprocess.Popen, int]:
-    """The bench with a program under it, and that program's process number."""
+    """The bench with a program under it, and that program's process number. Ctrl-C reaches it even where the tests run
+    in the background, whose programs inherit that it is ignored."""
     process = subprocess.Popen(
-        [sys.executable, "-c", INTERRUPTED, folder], cwd=ROOT, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        [sys.executable, "-c", INTERRUPTED, folder],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     while not (folder / "pid").exists() or not (folder / "pid").read_text():
         time.sleep(0.02)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import html
 
 import numpy as np
+
 import report
 
 STYLE = """

@@ -6,8 +6,9 @@ from __future__ import annotations
 import html
 
 import numpy as np
-from report import figure
 from results import Result, line
+
+from report import figure
 
 STYLE = """
 body { font: 13px/1.4 system-ui, sans-serif; margin: 2em; color: #222; background: #fafafa }
