@@ -19,7 +19,7 @@ import hosts
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-SECONDS = 240.0
+SECONDS = 900.0
 """A Blender that takes longer is stopped and its batch has failed."""
 NOISY_SAMPLES = 128
 SAMPLES = {"CYCLES": 1, "CARDIOID": 16}
